@@ -50,8 +50,8 @@ void write_ticks(const Session& session, const std::filesystem::path& csv,
 
 SessionWork export_into(const std::filesystem::path& folder, const GivenFile& file,
                         const WorkProgress& progress) {
-    const Session session(file.file);
-    session.check();
+    Session session(file.file);
+    session.rescue_if_damaged();
     SessionWork done = summary_of(session);
     if (const std::optional<ClockDrift> drift = session.drift())
         done.cells.push_back({"clock_drift_ms", number_text(1e3 * drift->gained_s, 3)});
@@ -62,8 +62,8 @@ SessionWork export_into(const std::filesystem::path& folder, const GivenFile& fi
 }
 
 void export_one(const std::filesystem::path& file, const std::filesystem::path& csv) {
-    const Session session(file);
-    session.check();
+    Session session(file);
+    session.rescue_if_damaged();
     print_warning(session.warning());
     {
         StoppableWork work("Exporting", csv);

@@ -363,8 +363,8 @@ Json json_of(const fs::path& file, const MediaDescription& media, bool why) {
 
 void describe(const fs::path& file, const fs::path& other, const InfoOptions& options) {
     if (is_session_file(file)) {
-        const Session session(file);
-        session.check();
+        Session session(file);
+        session.rescue_if_damaged();
         print_warning(session.warning());
         describe_session(session, options.json);
     } else if (options.json) {

@@ -123,8 +123,8 @@ void describe_session(const Session& session, bool json) {
 }
 
 SessionWork describe_in_batch(const GivenFile& file, bool json) {
-    const Session session(file.file);
-    session.check();
+    Session session(file.file);
+    session.rescue_if_damaged();
     SessionWork done = summary_of(session);
     done.cells.push_back({"late_ticks", std::to_string(late_ticks(session.reader())), true});
     done.cells.push_back({"device", session.fact("device"), true});

@@ -224,7 +224,7 @@ struct Replayed {
 /// Opens the session; its runs are yet to be computed.
 std::unique_ptr<Replayed> opened(const std::filesystem::path& file, const ReplayOptions& options) {
     auto replayed = std::make_unique<Replayed>(file);
-    replayed->session.check();
+    replayed->session.rescue_if_damaged();
     if (replayed->session.rows() == 0)
         throw InputError(file.string() + ": holds no tick to replay; record a longer one");
     replayed->runs = make_runs(replayed->session, options);
@@ -235,10 +235,10 @@ std::unique_ptr<Replayed> opened(const std::filesystem::path& file, const Replay
 void compute(Replayed& replayed, const ReplayOptions& options,
              const std::function<void(const std::string&)>& warn, const WorkProgress& progress) {
     const Session& session = replayed.session;
+    warn(session.warning());
     const SessionSurfaces from =
         open_surfaces(session, frames_options(session, options), options.surfaces);
     replayed.stored = from.stored;
-    warn(session.warning());
     warn(from.warning);
     warn(roughness_warning(options.touch.given, has_bump(session, options)));
     replay(session, *from.surfaces, replayed.runs, options.csv, progress);

@@ -63,7 +63,8 @@ void write_report(const Session& session, const std::filesystem::path& folder,
 /// Into a folder of the session's name.
 SessionWork report_into(const std::filesystem::path& folder, const GivenFile& file,
                         const std::vector<PlotFormat>& plot_formats, const WorkProgress& progress) {
-    const Session session(file.file);
+    Session session(file.file);
+    session.rescue_if_damaged();
     SessionWork done = summary_of(session);
     done.warnings.push_back(session.warning());
     write_report(session, folder / file.name, plot_formats, progress);
@@ -74,7 +75,8 @@ SessionWork report_into(const std::filesystem::path& folder, const GivenFile& fi
 
 void report_one(const std::filesystem::path& file, const std::filesystem::path& folder,
                 const std::vector<PlotFormat>& plot_formats) {
-    const Session session(file);
+    Session session(file);
+    session.rescue_if_damaged();
     print_warning(session.warning());
     {
         StoppableWork work("reading the session", folder);

@@ -94,18 +94,27 @@ class ArchiveWriter {
         std::string run;
         fs::path place;
         {
-            const Session original(file);
-            original.check();
+            Session original(file);
+            original.rescue_if_damaged();
             require_known_schema(original);
             if (!original.warning().empty()) summary_.warnings.push_back(original.warning());
             participant = participants_.name_of(original.fact("participant"));
             run = run_name(participant, kTouchTask, ++runs_[participant]);
             place = source_place(participant, run + kSessionEnding);
-            copy_database(file, archive() / place,
-                          original.reader().log() != SessionReader::Log::needed);
+            copy(original, archive() / place);
         }
         remove_folders_of(archive() / place, file);
         add_tables(archive() / place, participant, run, {.file = place.generic_string()});
+    }
+
+    /// Of a damaged one, what can be read.
+    static void copy(const Session& session, const fs::path& to) {
+        const SessionReader& reader = session.reader();
+        if (!reader.is_rescued())
+            return copy_database(reader.file(), to, reader.log() != SessionReader::Log::needed);
+        Statement copy = reader.rows("VACUUM INTO ?");
+        copy.bind(std::string_view(to.native()));
+        static_cast<void>(copy.next());
     }
 
     void remove_folders_of(const fs::path& session, const fs::path& original) {

@@ -35,6 +35,16 @@ void copy_file(const fs::path& from, const fs::path& to, const std::function<voi
     out.commit();
 }
 
+bool can_be_read(const fs::path& place) {
+    try {
+        return std::ranges::all_of(content_files(place), [](const fs::path& file) {
+            return std::ifstream(file).is_open();
+        });
+    } catch (const fs::filesystem_error&) {
+        return false;
+    }
+}
+
 /// Whether all names in a folder can stand in a manifest.
 bool has_plain_names(const fs::path& place) {
     return std::ranges::all_of(content_files(place), [](const fs::path& file) {
@@ -58,6 +68,8 @@ std::string copy_from(const std::vector<fs::path>& places, const FileContent& co
     std::string reason = "is not there; put it beside the session";
     for (const fs::path& place : places) {
         if (!is_file(place) && !is_folder(place)) continue;
+        reason = "cannot be read; make it readable";
+        if (!can_be_read(place)) continue;
         reason = "has changed since it was recorded; put the original beside the session";
         if (content_bytes(place) != content.bytes) continue;
         if (is_folder(place) && !has_plain_names(place)) return "has names with \\ or line breaks";
@@ -89,7 +101,9 @@ std::string ArchiveMedia::name_for(const FileContent& media, const fs::path& ses
         all_.push_back({.name = std::move(name), .content = media});
         found = std::prev(all_.end());
     }
-    std::ranges::copy(places_of(media, session), std::back_inserter(found->places));
+    for (const fs::path& place : places_of(media, session))
+        if (std::ranges::find(found->places, place) == found->places.end())
+            found->places.push_back(place);
     return std::string("../../") + kFolder + "/" + found->name;
 }
 

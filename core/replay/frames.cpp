@@ -254,7 +254,8 @@ SessionSurfaces open_surfaces(const Session& session, const SessionFramesOptions
     const bool may_use_stored = from == SurfacesFrom::automatic && needed.empty() &&
                                 !options.any_media && SurfaceReader(session.reader()).any();
     if (!may_use_stored) return of_video(session, options);
-    std::string why = version_warning(session, true);
+    // The video of another version may give other bits, but a surface with holes surely does.
+    std::string why = session.has_all_surfaces() ? version_warning(session, true) : "";
     try {
         if (why.empty()) return of_video(session, options);
     } catch (const InputError& error) {

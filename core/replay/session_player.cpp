@@ -105,12 +105,14 @@ class SessionMoments {
     std::shared_ptr<const TouchedFrames> frames_{};  // of the last tick with a surface
 };
 
-std::unique_ptr<ContactBand> read_band(const std::filesystem::path& file, double begin_s,
-                                       double end_s, const std::atomic<bool>& stopping) {
+std::unique_ptr<ContactBand> read_band(const std::filesystem::path& file, bool damaged,
+                                       double begin_s, double end_s,
+                                       const std::atomic<bool>& stopping) {
     auto band = std::make_unique<ContactBand>();
     const double pieces_per_s =
         static_cast<double>(ContactBand::kPieces) / std::max(end_s - begin_s, 1e-3);
-    const SessionReader reader(file);
+    SessionReader reader(file);
+    if (damaged) reader.rescue_if_damaged();
     auto query = reader.rows("SELECT t, contact, stand_in FROM tick WHERE surface ORDER BY tick");
     while (!stopping && query.next()) {
         ++band->hand.all;
@@ -126,8 +128,8 @@ std::unique_ptr<ContactBand> read_band(const std::filesystem::path& file, double
 
 OpenedSession::OpenedSession(const std::filesystem::path& file, bool any_media, SurfacesFrom from)
     : session(file),
-      frames(open_surfaces((session.check(), session), {.any_media = any_media, .colour = true},
-                           from)) {
+      frames(open_surfaces((session.rescue_if_damaged(), session),
+                           {.any_media = any_media, .colour = true}, from)) {
     if (session.rows() > 0 && !session.sources().empty()) return;
     // One of the first format says why it has no video.
     if (!session.warning().empty()) throw InputError(session.warning());
@@ -428,11 +430,12 @@ const SessionPlayback& SessionPlayer::playback() const {
     return implementation_->playback;
 }
 
-ContactBandReader::ContactBandReader(const std::filesystem::path& file, double begin_s,
-                                     double end_s)
-    : result_(std::async(std::launch::async, [this, file, begin_s, end_s] {
-          return read_band(file, begin_s, end_s, stopping_);
-      })) {}
+ContactBandReader::ContactBandReader(const Session& session)
+    : result_(std::async(std::launch::async,
+                         [this, file = session.file(), damaged = session.reader().is_rescued(),
+                          begin_s = session.begin_s(), end_s = session.end_s()] {
+                             return read_band(file, damaged, begin_s, end_s, stopping_);
+                         })) {}
 
 ContactBandReader::~ContactBandReader() {
     stopping_ = true;

@@ -103,7 +103,7 @@ struct ContactBand {
 /// Reads the session once, on a thread of its own, from construction on.
 class ContactBandReader {
   public:
-    ContactBandReader(const std::filesystem::path& file, double begin_s, double end_s);
+    explicit ContactBandReader(const Session& session);
     ~ContactBandReader();  ///< breaks off
     ContactBandReader(const ContactBandReader&) = delete;
     ContactBandReader& operator=(const ContactBandReader&) = delete;

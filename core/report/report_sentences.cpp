@@ -92,7 +92,10 @@ std::vector<std::string> remarks_of(const SessionReport& report) {
     if (report.session.fact("complete") == "0")
         remarks.emplace_back(
             "The recording was broken off, or still goes on: this is what was written so far.");
-    say(ticks.missing, " between the first and the last were not recorded.");
+    const bool damaged = report.session.is_damaged();
+    if (damaged)
+        remarks.push_back("The recording is damaged: " + report.session.fact(kDamageFact) + ".");
+    say(damaged ? 0 : ticks.missing, " between the first and the last were not recorded.");
     say(ticks.without_surface, " had no surface to touch.");
     say(ticks.device_not_ready, " had no device that was ready.");
     say(is_mouse_only(hand_of(ticks)) ? 0 : ticks.mouse_fallback,

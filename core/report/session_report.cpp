@@ -189,7 +189,6 @@ void write_session_report(const Session& session, const ReportRequest& request) 
         throw InputError(session.file().string() +
                          ": holds no ticks, so there is nothing to report; record it again");
     OutputFolder files(request.folder, all_names());
-    session.check();
     SessionReport report{.session = session,
                          .numbers = numbers_of(session, request.progress),
                          .program = request.program,

@@ -132,23 +132,41 @@ constexpr const char* kTickQueryEnd =
 static_assert(tick_state::kCatchingUp == 20 && tick_state::kGliding == 21 &&
               tick_state::kStandstill == 22 && tick_state::kMotionUnknown == 23);
 
-std::string ticks_from(const SessionReader& reader, std::int64_t tick) {
+/// `damaged`: ticks whose settings or frames are lost are passed over. (The first schema has none.)
+std::string ticks_from(const SessionReader& reader, std::int64_t tick, bool damaged) {
     return kTickQueryBegin + source_columns(reader) + kTickQueryEnd + std::to_string(tick) +
+           (damaged ? " AND t.fx IS NOT NULL AND NOT (t.surface AND t.settings IS NOT NULL AND "
+                      "s.id IS NULL)"
+                    : "") +
            " ORDER BY t.tick";
 }
 
 }  // namespace
 
 Session::Session(const std::filesystem::path& file) : reader_(file) {
+    try {
+        read();
+    } catch (const InputError&) {
+        if (reader_.is_rescued() || !reader_.rescue_if_damaged()) throw;
+        read();
+    }
+}
+
+void Session::rescue_if_damaged() {
+    if (!reader_.is_rescued() && reader_.rescue_if_damaged()) read();
+}
+
+void Session::read() {
+    facts_.clear();
+    parameters_.clear();
+    sources_.clear();
+    marks_.clear();
+    kept_bytes_ = 0;
     read_facts();
     read_parameters();
     read_sources();
     read_marks();
     read_extent();
-}
-
-void Session::check() const {
-    reader_.check();
 }
 
 std::string Session::fact(const std::string& key) const {
@@ -157,10 +175,24 @@ std::string Session::fact(const std::string& key) const {
 }
 
 std::string Session::warning() const {
-    const std::string log = log_warning();
-    const std::string& schema = reader_.other_schema();
-    if (schema.empty()) return log;
-    return log.empty() ? file().string() + ": " + schema : log + "; it " + schema;
+    std::string text = is_damaged() ? damage_warning() : log_warning();
+    for (const std::string& more : {missing_surfaces_warning(), reader_.other_schema()})
+        if (!more.empty()) text += (text.empty() ? file().string() + ": " : "; it ") + more;
+    return text;
+}
+
+std::string Session::missing_surfaces_warning() const {
+    const std::string missing = fact("missing_surfaces");
+    if (missing.empty() || missing == "0") return {};
+    return "lacks the surface of " + missing +
+           " pairs of frames, which could not be stored in time; a replay of these needs the video";
+}
+
+std::string Session::damage_warning() const {
+    const std::string loss = fact(kDamageFact);
+    return file().string() + ": " +
+           (reader_.is_rescued() ? reader_.damage() : "is of a recording that was damaged") + ": " +
+           loss + (reader_.is_rescued() ? "; copy it again" : "");
 }
 
 std::string Session::log_warning() const {
@@ -365,11 +397,11 @@ std::int64_t late_ticks(const SessionReader& reader) {
     return query.next() ? query.integer(0) : 0;
 }
 
-Session::Ticks::Ticks(const Session& session)
-    : query_(session.reader_.rows(ticks_from(session.reader_, session.first_tick_))) {}
-
 Session::Ticks::Ticks(const Session& session, double from_s)
-    : query_(session.reader_.rows(ticks_from(session.reader_, session.tick_at(from_s)))) {}
+    : Ticks(session, session.tick_at(from_s)) {}
+
+Session::Ticks::Ticks(const Session& session, std::int64_t from_tick)
+    : query_(session.reader_.rows(ticks_from(session.reader_, from_tick, session.is_damaged()))) {}
 
 bool Session::Ticks::next(TickRecord& tick) {
     if (!query_.next()) return false;

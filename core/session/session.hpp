@@ -22,15 +22,19 @@ struct ClockDrift {
 };
 
 /// Read while it is recorded or afterwards; the file stays as it is. One thread at a time. Every
-/// call that reads throws InputError, with one plain line, for a file that is missing, foreign,
-/// damaged or cut short.
+/// call that reads throws InputError, with one plain line, for a file that is missing or foreign,
+/// or when it meets damage.
 class Session {
   public:
-    /// Reads all but the ticks.
+    /// Reads all but the ticks; of a file whose damage it meets, what can be read.
     explicit Session(const std::filesystem::path& file);
 
-    /// Checks the whole file for damage; takes a second or two for an hour's recording.
-    void check() const;
+    /// Checks the whole file for damage, as SessionReader does; takes a second or two for an hour's
+    /// recording.
+    void check() const { reader_.check(); }
+    /// Checks it, and goes on with what can be read if it is damaged: warning() says what is
+    /// missing.
+    void rescue_if_damaged();
 
     [[nodiscard]] const std::filesystem::path& file() const noexcept { return reader_.file(); }
     [[nodiscard]] const SessionFacts& facts() const noexcept { return facts_; }
@@ -39,6 +43,12 @@ class Session {
     /// A sentence on what may be missing in the file, and on what of it is not read; empty:
     /// nothing.
     [[nodiscard]] std::string warning() const;
+    /// Whether it is what could be read of a damaged recording, or a copy of that.
+    [[nodiscard]] bool is_damaged() const { return facts_.contains(kDamageFact); }
+    /// Whether it holds the surface of every pair of frames that was felt, if it holds any.
+    [[nodiscard]] bool has_all_surfaces() const {
+        return !is_damaged() && missing_surfaces_warning().empty();
+    }
     /// In the order in which ticks first used them.
     [[nodiscard]] const std::vector<SessionParameters>& parameters() const noexcept {
         return parameters_;
@@ -74,6 +84,10 @@ class Session {
     class Ticks;
 
   private:
+    /// All but the ticks.
+    void read();
+    [[nodiscard]] std::string damage_warning() const;
+    [[nodiscard]] std::string missing_surfaces_warning() const;
     /// A sentence on a log that is missing or foreign.
     [[nodiscard]] std::string log_warning() const;
     void read_facts();
@@ -117,7 +131,7 @@ inline constexpr double kLate_us = 1000.0;
 /// The ticks in order of time; must not outlive its session.
 class Session::Ticks {
   public:
-    explicit Ticks(const Session& session);
+    explicit Ticks(const Session& session) : Ticks(session, session.first_tick_) {}
     /// From the first one at or after `from_s` on.
     Ticks(const Session& session, double from_s);
 
@@ -125,6 +139,8 @@ class Session::Ticks {
     [[nodiscard]] bool next(TickRecord& tick);
 
   private:
+    Ticks(const Session& session, std::int64_t from_tick);
+
     Statement query_;
 };
 

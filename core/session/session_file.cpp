@@ -27,8 +27,7 @@ constexpr int kHeldAgainShift = 32;
 // A reader takes no larger value at once.
 constexpr std::size_t kMostMapBytes = std::size_t{1} << 19;
 // Large pages waste little at their ends.
-constexpr const char* kFileLayout =
-    "PRAGMA page_size = 16384; PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0";
+constexpr const char* kFileLayout = "PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0";
 constexpr const char* kFlush = "PRAGMA synchronous = NORMAL";  // also for the merge at closing
 
 /// Makes an empty file where there was none; never touches an existing file.
@@ -47,6 +46,7 @@ const std::filesystem::path& made(const std::filesystem::path& file) {
 /// A new session file with its tables, in write-ahead mode: readers do not stop the recording.
 Database made_database(const std::filesystem::path& file) {
     Database database(made(file));
+    database.execute("PRAGMA page_size = " + std::to_string(kSessionPageBytes));
     database.execute(kFileLayout);
     database.execute("BEGIN");
     database.execute(session_schema());

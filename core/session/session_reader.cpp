@@ -8,15 +8,16 @@
 #include <iterator>
 #include <set>
 #include <system_error>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/session/session_rescue.hpp"
 #include "core/session/session_schema.hpp"
+#include "core/sqlite/database_log.hpp"
 
 namespace dibhr {
 namespace {
-
-constexpr int kLongestValue_bytes = 1 << 20;  ///< longer than any real value
 
 /// SQLite's message on one short line: it may quote the file's content.
 std::string brief(std::string_view words) {
@@ -26,13 +27,28 @@ std::string brief(std::string_view words) {
 
 }  // namespace
 
-SessionReader::SessionReader(const std::filesystem::path& file)
-    : file_(file),
-      log_(log_by_head()),
-      database_(file, {.complete = log_ != Log::needed, .longest_bytes = kLongestValue_bytes},
-                [this](const DatabaseError& error) { refuse(error); }) {
+SessionReader::SessionReader(const std::filesystem::path& file) : file_(file), log_(log_by_head()) {
+    if (damage_.empty()) {
+        try {
+            open();
+            return;
+        } catch (const InputError&) {
+            if (damage_.empty()) throw;
+        }
+    }
+    rescue();
+}
+
+void SessionReader::open() {
+    const Database::ReadOnly how{.complete = log_ != Log::needed,
+                                 .longest_bytes = kLongestSessionValue_bytes};
+    database_ = std::make_unique<Database>(file_, how, refusal());
     check_kind();
-    schema_ = database_.number("PRAGMA user_version");
+    read_schema();
+}
+
+void SessionReader::read_schema() {
+    schema_ = database_->number("PRAGMA user_version");
     if (schema_ < kFirstSessionSchema)
         refuse("its format has the number " + std::to_string(schema_));
     if (schema_ == kFirstSessionSchema)
@@ -41,9 +57,51 @@ SessionReader::SessionReader(const std::filesystem::path& file)
         check_view();
 }
 
+Database::ErrorHandler SessionReader::refusal() {
+    return [this](const DatabaseError& error) { refuse(error); };
+}
+
+void SessionReader::rescue() {
+    const std::string damage = damage_;
+    const std::string cause = cause_;
+    rescuing_ = true;
+    try {
+        RescuedTables tables = rescued_tables(file_, log_ == Log::needed, refusal());
+        database_ = std::move(tables.database);
+        check_kind();
+        read_schema();
+        if (database_->number("SELECT count(*) FROM (SELECT 1 FROM tick_data LIMIT 1)") == 0)
+            refuse("no tick");
+        tables.database = std::move(database_);
+        const std::string loss = loss_text(tables);
+        database_ = std::move(tables.database);
+        Statement(*database_, "INSERT OR REPLACE INTO session(key, value) VALUES (?, ?)")
+            .run(kDamageFact, loss);
+    } catch (const InputError&) {
+        if (!is_database(file_)) refuse("no SQLite file");
+        throw damage_error(damage, cause);
+    } catch (const DatabaseError& error) {
+        throw InputError(file_.string() + ": " + damage +
+                         ", and what is left of it cannot be put into TMPDIR (" +
+                         brief(error.what()) + "); make room there");
+    }
+    rescuing_ = false;
+    damage_ = damage;
+    rescued_ = true;
+}
+
+bool SessionReader::rescue_if_damaged() {
+    if (rescued_) return true;
+    cause_ = damage_found();
+    if (cause_.empty()) return false;
+    damage_ = "is damaged";
+    rescue();
+    return true;
+}
+
 void SessionReader::read_first_schema() {
     require_tables(kFirstSessionTables);
-    database_.execute(first_schema_as_this_one());
+    database_->execute(first_schema_as_this_one());
     other_schema_ =
         "is of format 1, the first, which held no parameters, files, marks and wall clock: it can "
         "be exported, but not replayed";
@@ -52,7 +110,7 @@ void SessionReader::read_first_schema() {
 void SessionReader::check_view() {
     require_tables(kSessionTables);
     // Recordings of before there were touch maps have no such table.
-    if (database_.number("SELECT count(*) FROM sqlite_master WHERE name = 'touch_map'") > 0)
+    if (database_->number("SELECT count(*) FROM sqlite_master WHERE name = 'touch_map'") > 0)
         require_tables(std::array{std::string_view("touch_map")});
     Statement view = rows("SELECT sql FROM sqlite_master WHERE type = 'view' AND name = 'tick'");
     const bool there = view.next();
@@ -74,10 +132,10 @@ void SessionReader::require_tables(std::span<const std::string_view> wanted) con
         names.append(names.empty() ? "('" : ", '").append(name).append("'");
     // A view has no pages of its own, nor has a table that a module makes up.
     const bool plain =
-        database_.number(
+        database_->number(
             "SELECT sum(rootpage > 0) FROM sqlite_master WHERE type = 'table' AND name IN " +
             names + ")") == std::ssize(wanted) &&
-        database_.number(
+        database_->number(
             "SELECT sum(x.hidden) FROM sqlite_master m, pragma_table_xinfo(m.name) x "
             "WHERE m.name IN " +
             names + ")") == 0;
@@ -106,9 +164,9 @@ std::string SessionReader::unknown_parts() const {
     return unknown;
 }
 
-/// The head of a closed file holds its length, and whether a log belongs to it. Refuses a shorter
-/// file.
-SessionReader::Log SessionReader::log_by_head() const {
+/// The head of a closed file holds its length, and whether a log belongs to it. Notes the damage of
+/// a shorter file, and of one without a head.
+SessionReader::Log SessionReader::log_by_head() {
     std::error_code failed;
     if (!std::filesystem::exists(file_, failed))
         throw InputError(file_.string() + ": no such file; check its name");
@@ -128,7 +186,8 @@ SessionReader::Log SessionReader::log_by_head() const {
                          "-wal, the log of its recording, is beside it; copy both again from where "
                          "it was recorded");
     if (stream.gcount() == 0) refuse("it is empty");
-    if (!is_database(file_)) refuse("no SQLite file");
+    if (!is_database(file_)) damage_ = "is damaged";
+    if (!damage_.empty()) return logged ? Log::needed : Log::none;
     const auto number = [&head](std::size_t at, std::size_t bytes) {
         std::uint64_t value = 0;
         for (std::size_t k = at; k < at + bytes; ++k) value = value << 8U | head[k];
@@ -141,13 +200,14 @@ SessionReader::Log SessionReader::log_by_head() const {
     const std::uint64_t promised = page * number(28, 4);
     const std::uint64_t there = std::filesystem::file_size(file_, failed);
     if (failed || number(24, 4) != number(92, 4) || there >= promised) return log;
-    throw InputError(file_.string() + ": is cut short (" + std::to_string(there) + " of " +
-                     std::to_string(promised) + " bytes); copy it again");
+    damage_ =
+        "is cut short (" + std::to_string(there) + " of " + std::to_string(promised) + " bytes)";
+    return log;
 }
 
 void SessionReader::check_kind() const {
-    const std::int64_t application = database_.number("PRAGMA application_id");
-    if (application == 0 && database_.number("SELECT count(*) FROM sqlite_master") == 0) {
+    const std::int64_t application = database_->number("PRAGMA application_id");
+    if (application == 0 && database_->number("SELECT count(*) FROM sqlite_master") == 0) {
         std::error_code failed;
         const std::string log = file_.filename().string() + "-wal";
         if (log_ == Log::absent)
@@ -164,15 +224,40 @@ void SessionReader::check_kind() const {
 }
 
 void SessionReader::check() const {
-    Statement checked = rows("PRAGMA quick_check(1)");
-    const std::string words = checked.next() ? checked.text(0) : "";
-    if (words != "ok") refuse_damaged(words.substr(words.rfind('\n') + 1));
+    if (rescued_) throw damage_error(damage_, {});
+    const std::string cause = damage_found();
+    if (!cause.empty()) throw damage_error("is damaged", cause);
 }
 
-void SessionReader::refuse(const DatabaseError& error) const {
+InputError SessionReader::damage_error(const std::string& damage, const std::string& cause) const {
+    return InputError(file_.string() + ": " + damage +
+                      (cause.empty() ? "" : " (" + brief(cause) + ")") + "; copy it again");
+}
+
+std::string SessionReader::damage_found() const {
+    try {
+        Statement checked = rows("PRAGMA quick_check(1)");
+        const std::string words = checked.next() ? checked.text(0) : "";
+        if (words != "ok") return words.substr(words.rfind('\n') + 1);
+    } catch (const InputError&) {
+        if (cause_.empty()) throw;
+        return cause_;
+    }
+    const std::string log = file_.string() + "-wal";
+    if (log_ == Log::needed && is_log_damaged(log))
+        return "torn pages in " + file_.filename().string() + "-wal";
+    return {};
+}
+
+void SessionReader::refuse(const DatabaseError& error) {
     using Cause = DatabaseError::Cause;
+    if (rescuing_) throw DatabaseError(error);
     const std::string words = error.what();
-    if (error.cause() == Cause::damaged) refuse_damaged(words);
+    if (error.cause() == Cause::damaged) {
+        damage_ = "is damaged";
+        cause_ = words;
+        throw damage_error(damage_, cause_);
+    }
     if (error.cause() == Cause::too_much_work) refuse("reading it would not end");
     if (error.cause() == Cause::too_long) refuse("it holds a value of more than a megabyte");
     if (error.cause() == Cause::cannot_open)
@@ -187,11 +272,6 @@ void SessionReader::refuse(const std::string& reason) const {
     throw InputError(file_.string() + ": is no session that can be read (" + brief(reason) +
                      (schema_ > kSessionSchemaVersion ? "); update dibhr"
                                                       : "); choose a file that dibhr recorded"));
-}
-
-void SessionReader::refuse_damaged(const std::string& words) const {
-    throw InputError(file_.string() + ": is damaged (" + brief(words) +
-                     "); copy it again, or save what is left with sqlite3's .recover");
 }
 
 }  // namespace dibhr

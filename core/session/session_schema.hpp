@@ -16,6 +16,11 @@ inline constexpr int kSessionSchemaVersion = 3;
 /// The schema that had a table `tick`, and neither parameters nor files.
 inline constexpr int kFirstSessionSchema = 1;
 
+/// The size of a page in a recorded file [bytes].
+inline constexpr int kSessionPageBytes = 16384;
+/// Longer than any value of a recording [bytes].
+inline constexpr int kLongestSessionValue_bytes = 1 << 20;
+
 /// Statements that make the tables of an empty database, and fill the explaining ones. A value of a
 /// tick that follows from the rest of its row is not stored in `tick_data`; the view `tick`
 /// computes it.

@@ -80,6 +80,7 @@ DatabaseError::Cause cause_of(int code) noexcept {
     using Cause = DatabaseError::Cause;
     switch (code) {
         case SQLITE_CORRUPT:
+        case SQLITE_NOTADB:
             return Cause::damaged;
         case SQLITE_INTERRUPT:
             return Cause::too_much_work;
@@ -140,6 +141,13 @@ Database::Database(const std::filesystem::path& file, const ReadOnly& how, Error
     : file_(file), on_error_(std::move(refuse)) {
     open(read_only_uri(file, how.complete), SQLITE_OPEN_READONLY | SQLITE_OPEN_URI,
          how.busy_timeout_ms);
+    restrict_untrusted(how.longest_bytes);
+}
+
+Database::Database(const Scratch& how, ErrorHandler refuse)
+    : file_(how.in_place_of), on_error_(std::move(refuse)), writes_(true) {
+    open("", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, kBusyTimeout_ms);
+    execute("PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF");
     restrict_untrusted(how.longest_bytes);
 }
 

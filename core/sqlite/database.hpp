@@ -80,10 +80,17 @@ class Database {
         int busy_timeout_ms{kBusyTimeout_ms};
     };
 
+    /// A database of its own, empty, on the disk only as far as its memory is too small for it.
+    struct Scratch {
+        std::filesystem::path in_place_of{};  ///< the size of that file limits a query's steps
+        int longest_bytes{0};                 ///< as for restrict_untrusted()
+    };
+
     /// Opens an existing file for reading and writing; an empty file is an empty database.
     explicit Database(const std::filesystem::path& file, ErrorHandler refuse = {});
     /// Opens an existing file, which stays as it is.
     Database(const std::filesystem::path& file, const ReadOnly& how, ErrorHandler refuse = {});
+    explicit Database(const Scratch& how, ErrorHandler refuse = {});
 
     /// Treats the file as untrusted from now on: its tables run no code, every cell is checked, no
     /// value is longer than `longest_bytes`, and the steps of a query are limited by the size of

@@ -289,10 +289,46 @@ TEST_CASE("media are copied only with the bytes that were touched", "[archive]")
     CHECK(faults_of(recordings.archive) == kNone);
 }
 
+TEST_CASE("a folder of pictures that cannot be read is said, and the rest is archived",
+          "[archive]") {
+    const Recordings recordings;
+    const fs::path picture = recordings.video("hills/1.png", "hill");
+    ArchiveRequest request =
+        recordings.request({recordings.session("1.dibhr", "P1", 5, picture.parent_path())});
+    request.copy_media = true;
+    fs::create_symlink("2.png", picture.parent_path() / "2.png");  // leads to itself
+    const ArchiveSummary summary = write_archive(request);
+    REQUIRE(summary.warnings.size() == 1);
+    CHECK(summary.warnings[0] == picture.parent_path().string() +
+                                     ": is not in the archive: cannot be read; make it readable");
+    CHECK(faults_of(recordings.archive) == kNone);
+}
+
+TEST_CASE("of a damaged session is archived what can be read, and what is missing is said",
+          "[archive]") {
+    const Recordings recordings;
+    const fs::path whole =
+        recordings.session("whole.dibhr", "P1", 3000, recordings.video("hill.png", "hill"));
+    const fs::path cut = recordings.home / "cut.dibhr";
+    fs::copy_file(whole, cut);
+    fs::resize_file(cut, fs::file_size(whole) * 3 / 4);
+    const ArchiveSummary summary = write_archive(recordings.request({cut}));
+    REQUIRE(summary.warnings.size() == 1);
+    CHECK(summary.warnings[0].starts_with(cut.string() + ": is cut short ("));
+    CHECK(contains(summary.warnings[0], " of 3000 ticks cannot be read (from "));
+    CHECK(faults_of(recordings.archive) == kNone);
+    const fs::path kept = recordings.archive / "sourcedata/sub-P1/sub-P1_task-touch_run-001.dibhr";
+    CHECK(contains(Session(kept).warning(), "is of a recording that was damaged: "));
+    const std::vector<TickRecord> all = ticks_of(whole), read = ticks_of(kept);
+    REQUIRE(read.size() > 1000);
+    REQUIRE(read.size() < all.size());
+    for (std::size_t k = 0; k < read.size(); ++k) REQUIRE(same_record(read[k], all[k]));
+}
+
 TEST_CASE("sessions of every schema are archived", "[archive]") {
     const Recordings recordings;
-    const std::string name =
-        GENERATE(as<std::string>(), "schema_1", "schema_2_first", "schema_2_first_view");
+    const std::string name = GENERATE(as<std::string>(), "schema_1", "schema_2_first",
+                                      "schema_2_first_view", "schema_3");
     CAPTURE(name);
     const fs::path file = recordings.home / "old.dibhr";
     REQUIRE(change(

@@ -205,7 +205,10 @@ TEST_CASE("a pair whose images were gone is counted, and a replay says what it l
     const SessionFolder folder;
     MovingSurface surface;
     CHECK(record(folder, surface, {.ticks = 300, .forgets = true}).missing_surfaces > 5);
-    CHECK_FALSE(SurfaceReader(Session(folder.file()).reader()).any());
+    const Session session(folder.file());
+    CHECK_FALSE(SurfaceReader(session.reader()).any());
+    CHECK_FALSE(session.has_all_surfaces());
+    CHECK(contains(session.warning(), folder.file().string() + ": lacks the surface of "));
 }
 
 TEST_CASE("a damaged surface is refused in one line that says so", "[replay]") {

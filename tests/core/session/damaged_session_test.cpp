@@ -1,0 +1,324 @@
+// A damaged session: what can be read is read, and is what was recorded; what is missing is said.
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/replay/session_replay.hpp"
+#include "core/replay/stored_frames.hpp"
+#include "core/session/recorder.hpp"
+#include "core/session/session.hpp"
+#include "core/session/surface_reader.hpp"
+#include "tests/core/session/exploration.hpp"
+#include "tests/core/session/session_folder.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
+#include "tests/support/text.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+
+namespace {
+
+constexpr std::size_t kPage = 16384;
+
+/// A hand over a moving surface, two marks, a change of algorithm, and a note longer than a page.
+void record(Recorder& recorder, TickRing& ring, MovingSurface& surface, int ticks) {
+    Exploration hand(surface);
+    recorder.media(1, "colour.mp4", "depth.mp4");
+    recorder.parameters(hand.parameters);
+    recorder.mark("begin");
+    for (int k = 0; k < ticks; ++k) {
+        if (k == ticks / 2) {
+            ++hand.parameters.version;
+            hand.parameters.touch.algorithm = Algorithm::pga;
+            recorder.parameters(hand.parameters);
+            recorder.mark("half");
+        }
+        push(ring, hand.next());
+    }
+}
+
+SessionFacts facts() {
+    return {{"note", std::string(3 * kPage, 'n')}};
+}
+
+void record_surface(const std::filesystem::path& file, int ticks) {
+    MovingSurface surface;
+    FeltMovingSurface felt(surface);
+    const auto ring = std::make_unique<TickRing>();
+    Recorder recorder(file, *ring, facts(), nullptr, std::chrono::steady_clock::now, {&felt});
+    record(recorder, *ring, surface, ticks);
+}
+
+using Cells = std::vector<std::optional<std::string>>;
+/// The rows of the view, by their ticks, each value with all its bits.
+using Ticks = std::map<std::int64_t, Cells>;
+
+Ticks ticks_of(const SessionReader& reader) {
+    Ticks ticks;
+    for (Statement row = reader.rows("SELECT tick, * FROM tick ORDER BY tick"); row.next();) {
+        Cells cells;
+        for (int k = 1; k < row.columns(); ++k) {
+            if (!row.has(k))
+                cells.emplace_back();
+            else if (row.type(k) == Statement::Type::real)
+                cells.emplace_back(std::to_string(std::bit_cast<std::uint64_t>(row.real(k))));
+            else
+                cells.emplace_back(row.text(k));
+        }
+        ticks[row.integer(0)] = std::move(cells);
+    }
+    return ticks;
+}
+
+/// A value that needs a lost row is missing; no other differs.
+bool is_part_of(const Ticks& read, const Ticks& all) {
+    return std::ranges::all_of(read, [&all](const auto& row) {
+        const auto whole = all.find(row.first);
+        if (whole == all.end()) return false;
+        for (std::size_t k = 0; k < row.second.size(); ++k)
+            if (row.second[k] && row.second[k] != whole->second[k]) return false;
+        return true;
+    });
+}
+
+/// Whether each tile of `part` is stored in `all`, too, with the same levels.
+bool is_part_of(const StoredSurface& part, const StoredSurface& all) {
+    if (part.felt.images.size() != all.felt.images.size()) return false;
+    bool same = true;
+    for (std::size_t k = 0; k < all.felt.images.size(); ++k) {
+        const DepthImage& one = *part.felt.images[k].levels;
+        const DepthImage& other = *all.felt.images[k].levels;
+        if (one.columns != other.columns || one.rows != other.rows) return false;
+        const auto across = static_cast<std::size_t>(part.tiles.across());
+        const auto columns = static_cast<std::size_t>(one.columns);
+        part.tiles.visit(part.tiles.all(), [&](std::size_t place) {
+            if ((*part.stored[k])[place] == 0) return;
+            same = same && (*all.stored[k])[place] != 0;
+            for (std::size_t row = 0; row < kTileSide; ++row) {
+                const auto first = static_cast<std::ptrdiff_t>(
+                    (place / across * kTileSide + row) * columns + place % across * kTileSide);
+                same = same && std::equal(one.levels.begin() + first,
+                                          one.levels.begin() + first + kTileSide,
+                                          other.levels.begin() + first);
+            }
+        });
+    }
+    return same;
+}
+
+/// The images have whole tiles.
+bool is_part_of(SurfaceReader& part, SurfaceReader& all) {
+    constexpr std::int64_t kPairs = 200;  // more than there are
+    for (std::int64_t pair = 1; part.any() && pair <= kPairs; ++pair)
+        if (const auto read = part.surface(pair); read && !is_part_of(*read, *all.surface(pair)))
+            return false;
+    return true;
+}
+
+void require_one_line(const std::string& text, const std::filesystem::path& file) {
+    REQUIRE(text.starts_with(file.string() + ": "));
+    REQUIRE_FALSE(contains(text, "\n"));
+}
+
+/// Replays what is left of the surface, as far as it goes.
+void replay(const Session& session) {
+    try {
+        StoredFrames frames(session, {});
+        SessionReplay replay(session, frames, {{}});
+        while (replay.next()) continue;
+    } catch (const InputError& error) {
+        require_one_line(error.what(), session.file());
+    }
+}
+
+void write(const std::filesystem::path& file, const std::string& bytes) {
+    std::ofstream(file, std::ios::binary) << bytes;
+}
+
+/// Overwrites pages, which count from 0.
+std::string without_pages(std::string bytes, std::size_t first, std::size_t count) {
+    bytes.replace(first * kPage, count * kPage, count * kPage, '\0');
+    return bytes;
+}
+
+/// The pages of a table, by SQLite; those of its leaves or of its branches.
+std::vector<std::size_t> pages_of(const std::filesystem::path& file, const std::string& table,
+                                  const std::string& kind) {
+    std::vector<std::size_t> pages;
+    for (const Row& row : query(file, "SELECT pageno FROM dbstat WHERE name = '" + table +
+                                          "' AND pagetype = '" + kind + "' ORDER BY pageno"))
+        pages.push_back(std::stoul(row[0]) - 1);
+    return pages;
+}
+
+}  // namespace
+
+TEST_CASE("wherever a session is cut or overwritten what is read of it is what was recorded",
+          "[session]") {
+    const SessionFolder folder;
+    record_surface(folder.file(), 2000);
+    const std::string whole = read_text(folder.file());
+    const Session recorded(folder.file());
+    const Ticks all = ticks_of(recorded.reader());
+    SurfaceReader surface(recorded.reader());
+    const auto damaged = folder / "damaged.dibhr";
+    std::mt19937 random(46);
+    const auto below = [&random](std::size_t end) {
+        return std::uniform_int_distribution<std::size_t>(0, end - 1)(random);
+    };
+    int read = 0;
+    int refused = 0;
+    for (int k = 0; k < 60; ++k) {
+        std::string bytes = whole;
+        if (k % 4 == 0) {
+            bytes.resize(below(whole.size()));
+        } else {
+            for (std::size_t pages = 1 + below(3); pages > 0; --pages) {
+                // A page, a part of one, or what a disk writes at once.
+                const std::size_t unit = k % 4 == 1 ? kPage : k % 4 == 2 ? 4096 : 512;
+                const std::size_t at = below(whole.size() / unit) * unit;
+                const bool zero = below(2) == 0;
+                for (std::size_t n = at; n < at + unit; ++n)
+                    bytes[n] = static_cast<char>(zero ? 0 : random());
+            }
+        }
+        write(damaged, bytes);
+        CAPTURE(k);
+        try {
+            Session session(damaged);
+            session.rescue_if_damaged();
+            const Ticks ticks = ticks_of(session.reader());
+            REQUIRE(is_part_of(ticks, all));
+            REQUIRE(std::cmp_equal(session.rows(), ticks.size()));
+            if (ticks.size() < all.size()) REQUIRE(contains(session.warning(), "cannot be read"));
+            if (session.is_damaged()) require_one_line(session.warning(), damaged);
+            SurfaceReader part(session.reader());
+            REQUIRE(is_part_of(part, surface));
+            replay(session);
+            ++read;
+        } catch (const InputError& error) {
+            require_one_line(error.what(), damaged);
+            ++refused;
+        }
+        REQUIRE(read_text(damaged) == bytes);
+    }
+    CHECK(read > 40);
+    CHECK(refused > 0);  // files that were cut before their first tick
+}
+
+TEST_CASE("ticks of a lost page are a gap of which the times are said", "[session]") {
+    const SessionFolder folder;
+    record_surface(folder.file(), 2000);
+    const Ticks all = [&] { return ticks_of(Session(folder.file()).reader()); }();
+    const auto leaves = pages_of(folder.file(), "tick_data", "leaf");
+    REQUIRE(leaves.size() > 4);
+    const std::string whole = read_text(folder.file());
+    write(folder.file(), without_pages(whole, leaves[2], 1));
+    Session session(folder.file());
+    session.rescue_if_damaged();
+    CHECK(is_part_of(ticks_of(session.reader()), all));
+    const std::int64_t lost = 2000 - session.rows();
+    CHECK(lost > 20);
+    CHECK(session.missing() == lost);
+    CHECK(contains(session.warning(), ": is damaged: " + std::to_string(lost) +
+                                          " of 2000 ticks cannot be read (from "));
+    CHECK_THROWS_AS(session.check(), InputError);
+    Session::Ticks ticks(session);
+    std::int64_t count = 0;
+    for (TickRecord tick; ticks.next(tick);) ++count;
+    CHECK(count == session.rows());
+}
+
+TEST_CASE("no tick is lost with the branches of their tree or with the first page", "[session]") {
+    const SessionFolder folder;
+    record_surface(folder.file(), 3000);
+    const Ticks all = [&] { return ticks_of(Session(folder.file()).reader()); }();
+    const std::string whole = read_text(folder.file());
+    const auto branches = pages_of(folder.file(), "tick_data", "internal");
+    REQUIRE(branches.size() == 1);
+    for (const std::size_t page : {branches[0], std::size_t{0}}) {
+        write(folder.file(), without_pages(whole, page, 1));
+        Session session(folder.file());
+        session.rescue_if_damaged();
+        CHECK(ticks_of(session.reader()) == all);
+        CHECK(contains(session.warning(), "is damaged: no tick is lost"));
+        CHECK(session.fact("note") == facts()["note"]);
+        CHECK(session.marks().size() == 2);
+    }
+}
+
+TEST_CASE("a session whose frames or settings are lost is exported, and no tick of them replayed",
+          "[session]") {
+    const SessionFolder folder;
+    record_surface(folder.file(), 1000);
+    const std::string table = GENERATE(as<std::string>{}, "parameters", "pair", "source");
+    const auto leaves = pages_of(folder.file(), table, "leaf");
+    const Ticks all = [&] { return ticks_of(Session(folder.file()).reader()); }();
+    write(folder.file(), without_pages(read_text(folder.file()), leaves.at(0), 1));
+    Session session(folder.file());
+    session.rescue_if_damaged();
+    const Ticks ticks = ticks_of(session.reader());
+    CHECK(ticks.size() == all.size());
+    CHECK(is_part_of(ticks, all));
+    CHECK(contains(session.warning(), "not all can be read of its "));
+    Session::Ticks computed(session);
+    TickRecord tick;
+    CHECK_FALSE(computed.next(tick));
+}
+
+TEST_CASE("what follows a torn page in the log of a broken recording is read", "[session]") {
+    const SessionFolder folder;
+    MovingSurface surface;
+    const auto ring = std::make_unique<TickRing>();
+    Recorder recorder(folder.file(), *ring, facts());
+    record(recorder, *ring, surface, 1000);
+    REQUIRE(eventually([&] { return recorder.status().rows == 1000; }));
+    const auto copied = folder / "copied.dibhr";
+    const auto log = std::filesystem::path(copied.string() + "-wal");
+    std::filesystem::copy_file(folder.file(), copied);
+    std::filesystem::copy_file(folder.file().string() + "-wal", log);
+    recorder.finish();
+    const Ticks all = [&] { return ticks_of(Session(copied).reader()); }();
+    REQUIRE(all.size() == 1000);
+    const std::string whole = read_text(log);
+    std::mt19937 random(7);
+    for (int k = 0; k < 30; ++k) {
+        std::string bytes = whole;
+        const std::size_t at = std::uniform_int_distribution<std::size_t>(0, whole.size())(random);
+        if (k % 3 == 0)
+            bytes.resize(at);
+        else
+            for (std::size_t n = at; n < std::min(at + 512, bytes.size()); ++n)
+                bytes[n] = static_cast<char>(random());
+        write(log, bytes);
+        CAPTURE(k, at);
+        try {
+            Session session(copied);
+            session.rescue_if_damaged();
+            const Ticks ticks = ticks_of(session.reader());
+            REQUIRE(is_part_of(ticks, all));
+            // The rest is lost with the log's end only.
+            if (k % 3 != 0 && at + 3 * kPage < whole.size()) REQUIRE(ticks.size() > 500);
+        } catch (const InputError& error) {
+            require_one_line(error.what(), copied);
+        }
+    }
+    write(log, whole);
+    Session session(copied);
+    session.rescue_if_damaged();
+    CHECK_FALSE(session.is_damaged());
+    CHECK(session.rows() == 1000);
+}
