@@ -238,7 +238,7 @@ void draw_depth_rows(ViewerState& state) {
               intrinsics_in, &DepthStatement::intrinsics, fields.intrinsics, state);
     if (!state.media.colour_path.empty()) registration_rows(state);
     if (!state.media.still && !state.media.live) time_rows(state);
-    if (ImGui::Button("Save as sidecar")) state.commands.push(SaveSidecar{});
+    if (item::button("Save as sidecar")) state.commands.push(SaveSidecar{});
     add_tooltip("Writes what the depth means beside its file, for whoever opens it next");
     ImGui::EndDisabled();
     ImGui::PopID();
@@ -261,11 +261,14 @@ void fill_depth_fields(ViewerState& state) {
 void draw_depth_line(ViewerState& state) {
     if (!state.media.meaning) return;
     const std::string line = depth_line(*state.media.meaning, ImGui::GetContentRegionAvail().x);
-    ImGui::TextDisabled("%s", line.c_str());
+    const ImVec2 begin = ImGui::GetCursorPos();
+    if (item::invisible_button("depth line", ImGui::CalcTextSize(line.c_str()), line))
+        ImGui::OpenPopup(kRowsPopup);
     add_tooltip((in_words(*state.media.meaning) + "; click to change what the depth's levels mean")
                     .c_str());
     if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
-    if (ImGui::IsItemClicked()) ImGui::OpenPopup(kRowsPopup);
+    ImGui::SetCursorPos(begin);
+    ImGui::TextDisabled("%s", line.c_str());
     ImGui::SetNextWindowSize({ImGui::GetFontSize() * 24.0F, 0.0F});
     if (!ImGui::BeginPopup(kRowsPopup)) return;
     draw_depth_rows(state);

@@ -28,7 +28,7 @@ void draw_estimate_progress(ViewerState& state, const DepthOffer& offer) {
     ImGui::TextDisabled("%s", one_line(now.said, 70).c_str());
     ImGui::Spacing();
     ImGui::BeginDisabled(offer.ending);
-    if (ImGui::Button("Cancel")) push_command(state, DepthOfferCommand::cancel);
+    if (item::button("Cancel")) push_command(state, DepthOfferCommand::cancel);
     ImGui::EndDisabled();
 }
 
@@ -57,7 +57,7 @@ void draw_command_consent(ViewerState& state, const DepthOffer& offer) {
     const bool read = ImGui::GetScrollY() >= ImGui::GetScrollMaxY();
     ImGui::EndChild();
     ImGui::BeginDisabled(!read);
-    if (ImGui::Button("Run it, now and later")) push_command(state, DepthOfferCommand::agree);
+    if (item::button("Run it, now and later")) push_command(state, DepthOfferCommand::agree);
     ImGui::EndDisabled();
     ImGui::SameLine();
 }
@@ -69,7 +69,7 @@ void draw_make_button(ViewerState& state, DepthOffer& offer) {
     }
     draw_choice(offer);
     const std::string& name = offer.estimators[static_cast<std::size_t>(offer.chosen)];
-    if (ImGui::Button(("Make depth with " + name + "###make").c_str()))
+    if (item::button(("Make depth with " + name + "###make").c_str()))
         push_command(state, DepthOfferCommand::make);
     ImGui::SameLine();
 }
@@ -95,14 +95,14 @@ void draw_depth_offer(ViewerState& state) {
     if (!offer.text.empty()) ImGui::TextWrapped("%s", capitalised(offer.text).c_str());
     ImGui::Spacing();
     if (!offer.depth.empty()) {
-        if (ImGui::Button("Open it")) push_command(state, DepthOfferCommand::open);
+        if (item::button("Open it")) push_command(state, DepthOfferCommand::open);
         ImGui::SameLine();
     } else if (!offer.unconfirmed_command.empty()) {
         draw_command_consent(state, offer);
     } else {
         draw_make_button(state, offer);
     }
-    if (ImGui::Button(("Close" + state.keys.in_brackets(Action::close_topmost)).c_str()))
+    if (item::button(("Close" + state.keys.in_brackets(Action::close_topmost)).c_str()))
         push_command(state, DepthOfferCommand::close);
     ImGui::End();
 }

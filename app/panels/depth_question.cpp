@@ -154,7 +154,7 @@ bool draw_answer(const DepthQuestion& question, std::size_t which, const std::st
     const ImVec2 low = ImGui::GetCursorScreenPos();
     const ImVec2 size = cell.size();
     ImGui::PushID(static_cast<int>(which));
-    const bool clicked = ImGui::InvisibleButton("answer", size);
+    const bool clicked = item::invisible_button("answer", size, label);
     ImGui::PopID();
     const bool hovered = ImGui::IsItemHovered();
     if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
@@ -184,7 +184,7 @@ void draw_foot(ViewerState& state, DepthQuestion& question) {
     if (!question.folder.empty()) {
         const std::string other =
             "Also for the other files in " + one_line(question.folder, 24) + " (key 0)###folder";
-        ImGui::Checkbox(other.c_str(), &question.for_folder);
+        item::checkbox(other.c_str(), &question.for_folder);
         add_tooltip("Files of this folder that leave the same open are not asked about again");
         ImGui::SameLine();
     }
@@ -195,7 +195,7 @@ void draw_foot(ViewerState& state, DepthQuestion& question) {
     } else {
         ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room - width);
     }
-    if (ImGui::Button(not_sure.c_str())) state.commands.push(AnswerDepth{});
+    if (item::button(not_sure.c_str())) state.commands.push(AnswerDepth{});
 }
 
 }  // namespace

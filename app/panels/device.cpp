@@ -70,7 +70,7 @@ void draw_force_switch(ViewerState& state, float width) {
         ImGui::PushStyleColor(ImGuiCol_ButtonActive, raised);
     }
     bool& on = state.touch.force_enabled;
-    if (ImGui::Button(shown.text, {width, 0.0F})) on = !on;
+    if (item::button(shown.text, {width, 0.0F})) on = !on;
     if (shown.ground) ImGui::PopStyleColor(4);
     add_tooltip(shown.help.c_str());
 }

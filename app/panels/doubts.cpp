@@ -28,11 +28,11 @@ void draw_unsafe_settings(ViewerState& state) {
         }
         ImGui::EndTable();
     }
-    if (ImGui::Button("Use the file's values")) state.commands.push(AnswerUnsafeSettings{true});
+    if (item::button("Use the file's values")) state.commands.push(AnswerUnsafeSettings{true});
     constexpr const char* kKeep = "Keep the defaults";
     ImGui::SameLine();
     if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize(kKeep).x) ImGui::NewLine();
-    if (ImGui::Button(kKeep)) state.commands.push(AnswerUnsafeSettings{false});
+    if (item::button(kKeep)) state.commands.push(AnswerUnsafeSettings{false});
     ImGui::End();
 }
 

@@ -274,7 +274,7 @@ void draw_card(ViewerState& state) {
         width - ImGui::CalcTextSize(end.c_str()).x - 3.0F * ImGui::GetStyle().WindowPadding.x;
     ImGui::TextUnformatted(title_of(info, end_x - ImGui::GetCursorPosX()).c_str());
     ImGui::SameLine(end_x);
-    if (ImGui::SmallButton(end.c_str())) state.commands.push(Action::explain);
+    if (item::small_button(end.c_str())) state.commands.push(Action::explain);
     ImGui::TextWrapped("%s", card_text(state).c_str());
     // At least two lines high, so that the text does not jump.
     const float lines = ImGui::GetCursorPosY();

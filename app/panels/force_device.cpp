@@ -122,22 +122,22 @@ void draw_missing_firmware(ViewerState& state, const DeviceFirmware& firmware) {
 /// Two clicks: the first one shows the warning beside the button that agrees.
 void draw_offer(ViewerState& state, std::size_t kind, const DeviceOffer& offer) {
     if (offer.warning.empty()) {
-        if (ImGui::Button(offer.label.c_str()))
+        if (item::button(offer.label.c_str()))
             state.commands.push(AgreeToDevice{kind, offer.number});
         return;
     }
     const std::string popup = "##agree" + std::to_string(offer.number);
-    if (ImGui::Button((offer.label + "...").c_str())) ImGui::OpenPopup(popup.c_str());
+    if (item::button((offer.label + "...").c_str())) ImGui::OpenPopup(popup.c_str());
     if (!ImGui::BeginPopup(popup.c_str())) return;
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24.0F);
     ImGui::TextUnformatted(offer.warning.c_str());
     ImGui::PopTextWrapPos();
-    if (ImGui::Button(offer.label.c_str())) {
+    if (item::button(offer.label.c_str())) {
         state.commands.push(AgreeToDevice{kind, offer.number});
         ImGui::CloseCurrentPopup();
     }
     ImGui::SameLine();
-    if (ImGui::Button("Not now")) ImGui::CloseCurrentPopup();
+    if (item::button("Not now")) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
 }
 
@@ -170,14 +170,14 @@ void draw_lamp(const DeviceLamp& lamp) {
 
 /// Above the rows of the topic that maps the device to the image.
 void draw_placing(ViewerState& state, DeviceSettings& settings, const char* fit_help) {
-    if (ImGui::Button("Fit the image")) {
+    if (item::button("Fit the image")) {
         settings.fit({state.media.depth_columns, state.media.depth_rows,
                       state.settings.touch.shape.relief_px,
                       state.settings.touch.coupling.pixel_pitch_mm});
     }
     add_tooltip(fit_help);
     ImGui::SameLine();
-    if (ImGui::Button("Centre the workspace")) ++state.touch.centre_count;
+    if (item::button("Centre the workspace")) ++state.touch.centre_count;
     add_tooltip("Takes back what the clutch has shifted", state.keys, Action::centre_workspace);
 }
 

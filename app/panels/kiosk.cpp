@@ -56,7 +56,7 @@ void draw_kiosk(ViewerState& state) {
     ImGui::SetWindowFontScale(std::max(text_scale, 1.0F));
     for (const KioskButton& button : buttons) {
         if (&button != buttons.data()) ImGui::SameLine(0.0F, 2.0F * margin());
-        if (ImGui::Button(button.label, size)) state.commands.push(button.command);
+        if (item::button(button.label, size)) state.commands.push(button.command);
     }
     ImGui::PopFont();
     ImGui::End();

@@ -28,7 +28,7 @@ constexpr float kPreview_em = 17.0F;
 constexpr float kPlaces_em = 10.0F;
 
 std::string size_text(const FolderEntry& entry) {
-    if (entry.kind == FileKind::folder) return {};
+    if (entry.kind == FileKind::folder) return entry.recording ? "Recording" : "";
     constexpr double kStep = 1000.0;
     constexpr const char* kUnits[] = {"B", "kB", "MB", "GB", "TB"};
     auto size = static_cast<double>(entry.bytes);
@@ -54,7 +54,7 @@ void go_to(ViewerState& state, const fs::path& folder) {
 }
 
 void open(ViewerState& state, const FolderEntry& entry) {
-    if (entry.kind == FileKind::folder) return go_to(state, entry.file);
+    if (is_only_folder(entry)) return go_to(state, entry.file);
     state.commands.push(request_for(entry));
     state.ui.dialog.shown = false;
 }
@@ -116,14 +116,10 @@ void enter(ViewerState& state) {
     state.commands.push(file);
 }
 
-/// Requests the completion at Tab, and inserts it when it is known, unless the text has changed.
+/// Inserts the completion when it is known, unless the text has changed.
 int complete(ImGuiInputTextCallbackData* data) {
     ViewerState& state = *static_cast<ViewerState*>(data->UserData);
     const std::string typed(data->Buf, static_cast<std::size_t>(data->BufTextLen));
-    if (data->EventFlag == ImGuiInputTextFlags_CallbackCompletion) {
-        state.commands.push(CompleteTyped{typed});
-        return 0;
-    }
     const Completion done = std::exchange(state.ui.dialog.completion, {});
     const bool fits = static_cast<int>(done.whole.size()) < data->BufSize;
     if (done.typed != typed || done.whole == typed || !fits) return 0;
@@ -167,11 +163,15 @@ void draw_line(ViewerState& state) {
     }
     ImGui::SetNextItemWidth(-1.0F);
     ImGui::PushID(dialog.line);
-    ImGui::InputTextWithHint(
-        "##typed", "Type to narrow the list, or a path (Tab completes it)", dialog.typed.data(),
-        dialog.typed.size(),
-        ImGuiInputTextFlags_CallbackCompletion | ImGuiInputTextFlags_CallbackAlways, complete,
-        &state);
+    ImGui::InputTextWithHint("##typed", "Type to narrow the list, or a path (Tab completes it)",
+                             dialog.typed.data(), dialog.typed.size(),
+                             ImGuiInputTextFlags_CallbackAlways, complete, &state);
+    item::reach(
+        ItemKeys::line,
+        [&] {
+            return ItemWords{"Name or path", "text", dialog.typed.data()};
+        },
+        true);
     if (ImGui::IsItemActive()) dialog.pictures_to_focus = 0;
     ImGui::PopID();
 }
@@ -193,18 +193,33 @@ void draw_row(ViewerState& state, const FolderEntry& entry, bool wide) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::PushID(entry.file.c_str());
-    if (name_selectable(
-            entry.name(), entry.file == dialog.chosen,
-            ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick)) {
+    if (name_selectable(entry.name(), entry.file == dialog.chosen,
+                        ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick,
+                        false)) {
         dialog.chosen = entry.file;
         if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) open(state, entry);
     }
     ImGui::PopID();
     if (!wide) return;
     ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s", size_text(entry).c_str());
+    if (entry.recording)
+        ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s",
+                           size_text(entry).c_str());
+    else
+        ImGui::TextDisabled("%s", size_text(entry).c_str());
     ImGui::TableNextColumn();
     ImGui::TextDisabled("%s", time_text(entry).c_str());
+}
+
+/// The rows are one item for the keyboard.
+void take_list_keys(OpenDialog& dialog) {
+    const bool has_keyboard = item::reach(ItemKeys::list, [&dialog] {
+        const FolderEntry* const chosen = chosen_of(dialog);
+        return ItemWords{"Files", "list", chosen != nullptr ? chosen->name() : "none chosen"};
+    });
+    if (!has_keyboard) return;
+    dialog.move += item::steps().down;
+    dialog.enter = dialog.enter || item::steps().enter;
 }
 
 /// Scrolls the chosen row to the middle, after a choice by keys.
@@ -239,6 +254,7 @@ void draw_rows(ViewerState& state, ImVec2 size) {
     }
     ImGui::PopStyleColor();
     ImGui::EndTable();
+    take_list_keys(state.ui.dialog);
 }
 
 void draw_places(ViewerState& state, ImVec2 size) {
@@ -265,25 +281,34 @@ void draw_places(ViewerState& state, ImVec2 size) {
     ImGui::EndChild();
 }
 
+/// A picture as wide as there is room, and not higher than `highest` [px].
+void draw_picture(std::uintptr_t texture, int columns, int rows, float highest) {
+    if (texture == 0 || columns < 1 || rows < 1) return;
+    const float aspect = static_cast<float>(columns) / static_cast<float>(rows);
+    const float width = std::min(ImGui::GetContentRegionAvail().x, highest * aspect);
+    ImGui::Image(texture_id<ImTextureID>(texture), {width, width / aspect});
+}
+
+const char* words_for(const FolderEntry& entry) {
+    if (entry.recording) return "A folder that is a recording";
+    return entry.depth.empty() ? name_of(entry.kind) : "Colour and depth";
+}
+
+/// Name, length and size of the chosen entry, and below them its first picture and depth.
 void draw_preview(const ViewerState& state, const FolderEntry* chosen, ImVec2 size) {
-    const OpenDialog& dialog = state.ui.dialog;
     ImGui::BeginChild("preview", size);
     if (chosen != nullptr) {
-        const Preview& preview = dialog.preview;
-        const bool of_chosen = preview.file == chosen->file;
-        if (of_chosen && preview.texture != 0) {
-            const float width = ImGui::GetContentRegionAvail().x;
-            const float height = std::min(width * static_cast<float>(preview.rows) /
-                                              static_cast<float>(std::max(preview.columns, 1)),
-                                          0.7F * size.y);
-            const float drawn = height * static_cast<float>(preview.columns) /
-                                static_cast<float>(std::max(preview.rows, 1));
-            ImGui::Image(texture_id<ImTextureID>(preview.texture), {drawn, height});
-        }
+        const Preview& preview = state.ui.dialog.preview;
         ImGui::TextWrapped("%s", chosen->name().c_str());
-        ImGui::TextDisabled("%s%s", chosen->depth.empty() ? "" : "Colour + depth, ",
-                            name_of(chosen->kind));
-        if (of_chosen && !preview.text.empty()) draw_dimmed(preview.text);
+        draw_dimmed(capitalised(words_for(*chosen)));
+        const bool is_known = preview.file == chosen->file;
+        if (is_known && !preview.text.empty()) draw_dimmed(preview.text);
+        ImGui::Spacing();
+        const float highest = 0.5F * (size.y - ImGui::GetCursorPosY()) - ImGui::GetFontSize();
+        if (is_known) {
+            draw_picture(preview.colour, preview.columns, preview.rows, highest);
+            draw_picture(preview.depth, preview.depth_columns, preview.depth_rows, highest);
+        }
     } else {
         draw_dimmed("Choose a recording. Its colour and its depth are one row.");
     }
@@ -292,7 +317,7 @@ void draw_preview(const ViewerState& state, const FolderEntry* chosen, ImVec2 si
 
 void draw_buttons(ViewerState& state, const FolderEntry* chosen) {
     OpenDialog& dialog = state.ui.dialog;
-    ImGui::Checkbox("All files", &dialog.all_files);
+    item::checkbox("All files", &dialog.all_files);
     constexpr float kAllInARow_em = 36.0F;  // if narrower, the box is only in Video, Recent
     if (ImGui::GetContentRegionAvail().x > kAllInARow_em * ImGui::GetFontSize()) {
         ImGui::SameLine();
@@ -300,12 +325,20 @@ void draw_buttons(ViewerState& state, const FolderEntry* chosen) {
     }
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float width = 6.5F * ImGui::GetFontSize();
-    ImGui::SameLine(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - 2.0F * width - gap);
-    if (ImGui::Button("Cancel", {width, 0.0F})) dialog.shown = false;
+    const bool looks_inside = chosen != nullptr && chosen->recording;
+    const float buttons = looks_inside ? 3.0F : 2.0F;
+    ImGui::SameLine(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - buttons * width -
+                    (buttons - 1.0F) * gap);
+    if (looks_inside) {
+        if (item::button("Look inside", {width, 0.0F})) go_to(state, chosen->file);
+        add_tooltip("Lists the folder; a name with a slash behind it does so, too");
+        ImGui::SameLine(0.0F, gap);
+    }
+    if (item::button("Cancel", {width, 0.0F})) dialog.shown = false;
     ImGui::SameLine(0.0F, gap);
     ImGui::BeginDisabled(chosen == nullptr);
-    const bool into = chosen != nullptr && chosen->kind == FileKind::folder;
-    if (ImGui::Button(into ? "Go there" : "Open", {width, 0.0F})) open(state, *chosen);
+    const bool into = chosen != nullptr && is_only_folder(*chosen);
+    if (item::button(into ? "Go there" : "Open", {width, 0.0F})) open(state, *chosen);
     ImGui::EndDisabled();
 }
 

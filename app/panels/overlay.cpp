@@ -378,8 +378,11 @@ void draw_hint(const ViewerState& state, Hint hint, float alpha) {
     constexpr const char* kHints[][2] = {
         {"Move the mouse over the picture. Hold the left button to touch.",
          "Hold the left button to touch."},
-        {"Turn the wheel while you press: deeper, or less deep.", "Wheel: press deeper."}};
-    const auto& [whole, brief] = kHints[static_cast<int>(hint)];
+        {"The arrow keys move the hand. Hold Space to touch.", "Hold Space to touch."},
+        {"Turn the wheel while you press: deeper, or less deep.", "Wheel: press deeper."},
+        {"Page up and Page down while you press: deeper, less deep.", "Page up: press deeper."}};
+    const auto& [whole, brief] =
+        kHints[2 * static_cast<int>(hint) + (state.ui.keys_move_hand ? 1 : 0)];
     const float room = ImGui::GetIO().DisplaySize.x - panel_column_width(state);
     const bool fits = ImGui::CalcTextSize(whole).x + 40.0F * state.ui.scale < room;
     centred_label(state, fits ? whole : brief, 0.0F, alpha);
@@ -398,7 +401,7 @@ void draw_nothing_open(ViewerState& state) {
     ImGui::TextUnformatted("Nothing is open.");
     ImGui::TextDisabled("Drop a colour and a depth file here, a folder or a session, or");
     ImGui::Spacing();
-    if (ImGui::Button(("Open a recording" + state.keys.in_brackets(Action::open_file)).c_str()))
+    if (item::button(("Open a recording" + state.keys.in_brackets(Action::open_file)).c_str()))
         state.commands.push(Action::open_file);
     ImGui::End();
 }
@@ -412,7 +415,7 @@ void draw_message_box(ViewerState& state) {
     ImGui::Begin("That did not work", &open, kTitledWindow);
     ImGui::TextWrapped("%s", state.ui.message.c_str());
     ImGui::Spacing();
-    if (ImGui::Button(("Close" + state.keys.in_brackets(Action::close_topmost)).c_str()))
+    if (item::button(("Close" + state.keys.in_brackets(Action::close_topmost)).c_str()))
         open = false;
     ImGui::End();
     if (!open) state.ui.message.clear();

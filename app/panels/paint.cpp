@@ -67,7 +67,7 @@ void draw_undo_buttons(ViewerState& state) {
         (ImGui::GetContentRegionAvail().x - 2.0F * ImGui::GetStyle().ItemSpacing.x) / 3.0F;
     const auto button = [third](const char* label, bool enabled, const std::string& help) {
         ImGui::BeginDisabled(!enabled);
-        const bool pressed = ImGui::Button(label, {third, 0.0F});
+        const bool pressed = item::button(label, {third, 0.0F});
         ImGui::EndDisabled();
         add_tooltip(help.c_str());
         return pressed;
@@ -93,7 +93,7 @@ void draw_paint_panel(ViewerState& state) {
     if (!brush.refusal.empty()) return draw_dimmed(brush.refusal);
     ImGui::PushID("paint");
     bool on = brush.on;
-    if (ImGui::Checkbox("Brush", &on)) state.commands.push(Action::toggle_brush);
+    if (item::checkbox("Brush", &on)) state.commands.push(Action::toggle_brush);
     add_tooltip(("The left mouse button paints on the relief instead of touching it" +
                  state.keys.in_brackets(Action::toggle_brush))
                     .c_str());

@@ -53,7 +53,7 @@ void draw_marks(const ReplayInfo& replay, Transport& player) {
         ImGui::PushID(&mark);
         const std::string text =
             clock_text(mark.t_s - replay.playback.begin_s) + "   " + mark.tag + "  " + mark.text;
-        if (ImGui::Selectable(text.c_str())) player.seek(mark.t_s);
+        if (item::selectable(text.c_str())) player.seek(mark.t_s);
         ImGui::PopID();
     }
     ImGui::EndChild();
@@ -67,7 +67,7 @@ void draw_replay_panel(ViewerState& state, Transport& replay) {
     ImGui::PushID("replay");
     const ReplayInfo& info = *state.touch.replay;
     draw_about(info);
-    if (ImGui::Button("Touch this video", {half_width(), 0.0F})) state.commands.push(LeaveReplay{});
+    if (item::button("Touch this video", {half_width(), 0.0F})) state.commands.push(LeaveReplay{});
     add_tooltip("Leaves the replay: the hand touches the video it was recorded over");
     ImGui::SameLine();
     report_button(state, info.file);

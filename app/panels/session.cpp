@@ -29,7 +29,7 @@ void push_recording_colours() {
 void draw_switch(ViewerState& state) {
     const bool on = state.touch.recording.has_value();
     if (on) push_recording_colours();
-    if (ImGui::Button(on ? "Stop recording###record" : "Record###record", {half_width(), 0.0F})) {
+    if (item::button(on ? "Stop recording###record" : "Record###record", {half_width(), 0.0F})) {
         state.commands.push(Action::record);
     }
     if (on) ImGui::PopStyleColor(kRecordingColours);
@@ -62,7 +62,7 @@ void draw_marks(ViewerState& state) {
                                     ("Enter" + or_key + ", marks the moment with it").c_str(), true,
                                     ImGui::GetContentRegionAvail().x - beside);
     ImGui::SameLine();
-    if (ImGui::Button("Mark") || entered)
+    if (item::button("Mark") || entered)
         state.commands.push(MarkMoment{std::chrono::steady_clock::now()});
     add_tooltip("Marks this moment", state.keys, Action::mark);
     const std::vector<SessionMark>& marks = state.touch.recording->marks;
@@ -78,7 +78,7 @@ void draw_clip_button(ViewerState& state) {
     const bool on = state.ui.clip && !state.ui.clip->finishing;
     if (on) push_recording_colours();
     ImGui::BeginDisabled(state.ui.clip && state.ui.clip->finishing);
-    if (ImGui::Button(on ? "End the clip###clip" : "Save a clip###clip", {-1.0F, 0.0F}))
+    if (item::button(on ? "End the clip###clip" : "Save a clip###clip", {-1.0F, 0.0F}))
         state.commands.push(Action::take_clip);
     ImGui::EndDisabled();
     if (on) ImGui::PopStyleColor(kRecordingColours);
@@ -105,7 +105,7 @@ void draw_session_panel(ViewerState& state) {
         draw_progress(*touch.recording);
     } else if (!touch.recorded_file.empty()) {
         file_row("Recorded", touch.recorded_file);
-        if (ImGui::Button("Replay it", {half_width(), 0.0F})) {
+        if (item::button("Replay it", {half_width(), 0.0F})) {
             state.commands.push(OpenRequest{.colour = touch.recorded_file});
         }
         ImGui::SameLine();

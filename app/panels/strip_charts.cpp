@@ -179,7 +179,7 @@ void draw_buttons(ViewerState& state, ImVec2 corner) {
     const ImVec2 below = ImGui::GetCursorScreenPos();
     ImGui::SetCursorScreenPos(
         {corner.x - button_width(choose) - button_width(hold) - 2.0F * gap, corner.y + gap});
-    if (ImGui::SmallButton(hold)) {
+    if (item::small_button(hold)) {
         if (state.ui.paused_strips) {
             state.ui.paused_strips.reset();
         } else {
@@ -188,11 +188,11 @@ void draw_buttons(ViewerState& state, ImVec2 corner) {
     }
     add_tooltip("The charts are held; touching goes on");
     ImGui::SameLine(0.0F, gap);
-    if (ImGui::SmallButton(choose)) ImGui::OpenPopup("charts");
+    if (item::small_button(choose)) ImGui::OpenPopup("charts");
     add_tooltip("Which charts are drawn");
     if (ImGui::BeginPopup("charts")) {
         for (const StripKind& kind : kKinds) {
-            ImGui::Checkbox(kind.name, &(state.settings.charts.*kind.shown));
+            item::checkbox(kind.name, &(state.settings.charts.*kind.shown));
             add_tooltip(kind.help);
         }
         ImGui::EndPopup();

@@ -48,7 +48,7 @@ void draw_text_size(ViewerState& state) {
     constexpr double kStep = 1.25;
     double& scale = state.settings.ui_scale;
     const auto choose = [&](const char* label, double wanted, const char* help) {
-        if (ImGui::Button(label)) scale = wanted;
+        if (item::button(label)) scale = wanted;
         add_tooltip(help);
     };
     const double now = static_cast<double>(state.ui.scale);
@@ -119,13 +119,13 @@ void draw_surface_panel(ViewerState& state) {
     flag_row("Trace", settings.relief_style.trace, standard.trace,
              "Dots where you have touched in the last seconds");
     int straight = settings.straight_view ? 1 : 0;
-    ImGui::RadioButton("Perspective", &straight, 0);
+    item::radio_button("Perspective", &straight, 0);
     ImGui::SameLine();
-    ImGui::RadioButton("Straight", &straight, 1);
+    item::radio_button("Straight", &straight, 1);
     add_tooltip("As seen by the camera that recorded it", state.keys, Action::toggle_straight_view);
     settings.straight_view = straight == 1;
     ImGui::SameLine();
-    if (ImGui::Button("Reset view")) state.commands.push(Action::reset_view);
+    if (item::button("Reset view")) state.commands.push(Action::reset_view);
     add_tooltip(state.keys.name_for(Action::reset_view).c_str());
     choice_row("Theme", kThemeNames, settings.theme,
                "The colours of the panels and the wall (--theme)");

@@ -26,7 +26,7 @@ void draw_origin(ViewerState& state) {
         return;
     }
     draw_dimmed("Computed again with these. The pale ball is the recorded proxy.");
-    if (ImGui::Button("As recorded", {-1.0F, 0.0F})) state.commands.push(ReplayAsRecorded{});
+    if (item::button("As recorded", {-1.0F, 0.0F})) state.commands.push(ReplayAsRecorded{});
     add_tooltip("Back to the recorded parameters, proxies and forces");
 }
 
@@ -93,7 +93,7 @@ void draw_material(ViewerState& state, const std::string& name, const char* help
     const bool chosen = state.touch.material.name == name;
     ImGui::PushStyleColor(
         ImGuiCol_Button, ImGui::GetStyleColorVec4(chosen ? ImGuiCol_SliderGrab : ImGuiCol_FrameBg));
-    if (ImGui::Button(label.c_str()))
+    if (item::button(label.c_str()))
         state.commands.push(UseMaterial{name.empty() ? std::string(kAsRecorded) : name});
     ImGui::PopStyleColor();
     add_tooltip(help);
@@ -132,7 +132,7 @@ void draw_bump(ViewerState& state) {
     }
     if (!state.touch.bump) return;
     fact_row("Bump map", state.touch.bump_file.filename().string());
-    if (ImGui::Button("Remove the bump map")) state.commands.push(LoadBump{});
+    if (item::button("Remove the bump map")) state.commands.push(LoadBump{});
 }
 
 /// The sound's volume and mute.
@@ -159,7 +159,7 @@ void draw_sound(ViewerState& state) {
         settings.sound_volume = std::clamp(percent / 100.0, 0.0, 1.0);
     }
     ImGui::SameLine();
-    ImGui::Checkbox("Mute", &settings.mute);
+    item::checkbox("Mute", &settings.mute);
     add_tooltip("Touch makes no sound", state.keys, Action::toggle_sound);
 }
 

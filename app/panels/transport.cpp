@@ -96,6 +96,9 @@ std::optional<double> draw_time_line(const TimeLineContents& line, float width) 
     const Track track{ImGui::GetCursorScreenPos(), std::max(width, 1.0F), ImGui::GetFrameHeight(),
                       line.length_s};
     ImGui::InvisibleButton("time line", {track.width, track.height});
+    const bool by_keys = item::reach(ItemKeys::turn, [&] {
+        return ItemWords{"Time line", "slider", clock_text(std::round(line.now_s))};
+    });
     const bool hovered = ImGui::IsItemHovered();
     const bool held = ImGui::IsItemActive();
     const float cursor_x = ImGui::GetIO().MousePos.x;
@@ -113,7 +116,9 @@ std::optional<double> draw_time_line(const TimeLineContents& line, float width) 
     }
     const bool moved = ImGui::IsItemActivated() || ImGui::GetIO().MouseDelta.x != 0.0F;
     if (held && moved) return under_s;
-    return {};
+    const int steps = by_keys ? item::steps().across : 0;
+    if (steps == 0) return {};
+    return std::clamp(line.now_s + steps, 0.0, line.length_s);
 }
 
 /// The text beside the time line: whole if it leaves room for a usable line, else shorter, or

@@ -21,7 +21,7 @@ void draw_recent(ViewerState& state) {
     ImGui::SameLine();
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() +
                          std::max(0.0F, ImGui::GetContentRegionAvail().x - width));
-    if (ImGui::Button(kRecent)) ImGui::OpenPopup("recent");
+    if (item::button(kRecent)) ImGui::OpenPopup("recent");
     add_tooltip("Files that were opened before");
     if (!ImGui::BeginPopup("recent")) return;
     if (state.media.recent.empty()) draw_dimmed("No file was opened yet.");
@@ -34,14 +34,14 @@ void draw_recent(ViewerState& state) {
         ImGui::PushID(&file);
         const std::string name =
             is_live(file.colour) ? public_name(file.colour) : file.colour.filename().string();
-        if (ImGui::Selectable((name + depth).c_str()))
+        if (item::selectable((name + depth).c_str()))
             state.commands.push(OpenRequest{file.colour, file.depth});
         ImGui::PopID();
         ImGui::EndDisabled();
         add_tooltip(file.colour.c_str());
     }
     ImGui::Separator();
-    ImGui::Checkbox("Go on where it was left", &state.settings.resume);
+    item::checkbox("Go on where it was left", &state.settings.resume);
     add_tooltip("A video that is opened again goes on at the moment at which it was closed");
     desktop_dialog_box(state.settings.open_with);
     ImGui::EndPopup();
@@ -118,7 +118,7 @@ void draw_playback(const ViewerState& state, Transport& player) {
     const PlaybackStatus& playback = state.media.playback;
     play_and_step_buttons(playback.playing, player, state.keys, "frame");
     bool looping = playback.looping;
-    if (ImGui::Checkbox("Loop", &looping)) player.set_looping(looping);
+    if (item::checkbox("Loop", &looping)) player.set_looping(looping);
     add_tooltip("Start again at the end", state.keys, Action::toggle_loop);
     fact_row("Time", clock_text(playback.media_s) + " of " + clock_text(playback.duration_s));
     draw_frame(playback);
@@ -161,12 +161,12 @@ void draw_prepared(ViewerState& state) {
         ImGui::ProgressBar(static_cast<float>(*state.ui.preparing), {-button_width("Cancel"), 0.0F},
                            "Preparing");
         ImGui::SameLine();
-        if (ImGui::Button("Cancel##preparing")) state.commands.push(PrepareRecording{});
+        if (item::button("Cancel##preparing")) state.commands.push(PrepareRecording{});
     } else if (playback.prepared) {
         draw_dimmed("Prepared: its cleaned surface is kept");
         add_tooltip("Nothing is cleaned while it plays; dibhr prepare --list has all that is kept");
     } else if (playback.open && !playback.live && !state.media.still && !state.media.opening) {
-        if (ImGui::Button("Prepare")) state.commands.push(PrepareRecording{});
+        if (item::button("Prepare")) state.commands.push(PrepareRecording{});
         add_tooltip(
             "Cleans the whole recording once and keeps its surface, so that it plays at its own "
             "rate, also on a slow machine; it feels the same");

@@ -50,9 +50,11 @@ struct TextFields {
 /// The preview of a recording that is not open.
 struct Preview {
     std::filesystem::path file{};
-    std::uintptr_t texture{0};  ///< name of an OpenGL texture; 0: none
-    int columns{0}, rows{0};
-    std::string text{};
+    std::uintptr_t colour{0};  ///< names of OpenGL textures; 0: none
+    std::uintptr_t depth{0};
+    int columns{0}, rows{0};  ///< of the colour
+    int depth_columns{0}, depth_rows{0};
+    std::string text{};  ///< lines: its length, its size; empty: it is still being read
 };
 
 /// The completion of a typed text by Tab.
@@ -210,6 +212,8 @@ struct KioskShown {
 
 /// The state of the window itself.
 struct UiState {
+    ItemWords focus{};           ///< the item that has the keyboard; empty: none has it
+    bool keys_move_hand{false};  ///< the arrow keys move it, in place of the mouse
     std::vector<UnsafeSetting> unsafe_settings{};  ///< of the settings file, to be agreed to
     MaterialNames materials{};                     ///< to choose from
     std::optional<PixelShown> under_hand{};        ///< nothing: the hand is outside the picture

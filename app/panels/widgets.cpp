@@ -4,11 +4,9 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
-#include <cctype>
+#include <array>
 #include <cmath>
-#include <cstdarg>
 #include <cstddef>
-#include <cstdio>
 #include <string>
 #include <utility>
 #include <variant>
@@ -24,11 +22,17 @@ namespace {
 
 constexpr float kLabelShare = 0.40F;  // of a row's width
 constexpr float kTooltip_em = 22.0F;  // widest text
+constexpr const char* kSlideByMouse = "Drag, or Ctrl+click to type a number";
+constexpr const char* kSlideKeys = "\nLeft and right change it, Enter types a number";
 
 /// The colour of warnings, readable on the theme's background.
 ImU32 warning_colour() {
     const bool on_dark = ImGui::GetStyleColorVec4(ImGuiCol_Text).x > 0.5F;
     return on_dark ? IM_COL32(242, 184, 97, 255) : IM_COL32(146, 84, 0, 255);
+}
+
+const char* open_word(bool open) {
+    return open ? "open" : "closed";
 }
 
 /// Draws the label and moves the cursor to the begin of the row's value.
@@ -50,6 +54,29 @@ float arrow_width() {
 /// The width of a row's value, without the arrow.
 float value_width() {
     return ImGui::GetContentRegionAvail().x - arrow_width() - ImGui::GetStyle().ItemInnerSpacing.x;
+}
+
+/// The words of a row's number: "Stiffness, slider, 0.50 N/mm".
+ItemWords number_words(const char* label, const char* format, double value) {
+    std::array<char, 64> text{};
+    ImGui::DataTypeFormatString(text.data(), static_cast<int>(text.size()), ImGuiDataType_Double,
+                                &value, format);
+    return {label, "slider", text.data()};
+}
+
+/// The value that many steps of the arrow keys away: a step is a hundredth of the slider.
+double after_steps(const NumberRow& row, double value, int steps) {
+    constexpr int kUsualDigits = 3;
+    constexpr double kTimes = 1.05;
+    const double digit = std::pow(10.0, -ImParseFormatPrecision(row.format, kUsualDigits));
+    const double least = std::max(digit, 0.01 * (row.highest - row.lowest));
+    double wanted = value + steps * least;
+    if (row.logarithmic && value > 0.0) {
+        wanted = value * std::pow(kTimes, steps);
+        if (std::abs(wanted - value) < digit) wanted = value + steps * digit;
+    }
+    wanted = std::round(wanted / digit) * digit;
+    return std::clamp(wanted, row.lowest, std::max(row.highest, value));
 }
 
 bool restore_arrow(bool changed) {
@@ -146,6 +173,7 @@ bool section(const ViewerState& state, const char* title, bool& open, bool* want
     ImGui::SetNextItemOpen(open, ImGuiCond_Always);
     ImGui::PushFont(state.ui.fonts.heading);
     open = ImGui::CollapsingHeader(title);
+    item::reach(ItemKeys::press, [&] { return ItemWords{title, "section", open_word(open)}; });
     ImGui::PopFont();
     if (asked) ImGui::SetScrollHereY(0.0F);
     return open;
@@ -164,7 +192,10 @@ bool number_row(const NumberRow& row, double& value) {
     });
     // ImGui rounds a dragged value to the shown digits, but a text instead of 0 has none.
     if (named && ImGui::IsMouseDown(ImGuiMouseButton_Left)) value = std::round(value);
-    add_tooltip("Drag, or Ctrl+click to type a number");
+    const bool by_keys =
+        item::reach(ItemKeys::slide, [&] { return number_words(row.label, format, value); });
+    if (by_keys) value = after_steps(row, value, item::steps().across);
+    add_tooltip(by_keys ? (row.help + std::string(kSlideKeys)).c_str() : kSlideByMouse);
     if (restore_arrow(std::abs(value - row.standard) > 1e-9)) value = row.standard;
     ImGui::PopID();
     return std::abs(value - before) > 0.0;
@@ -173,6 +204,7 @@ bool number_row(const NumberRow& row, double& value) {
 Dragged dragged_row(const DraggedRow& row, std::span<double> values) {
     ImGui::PushID(row.label);
     row_label(row.label, row.help);
+    bool stepped = false;
     ImGui::BeginGroup();
     ImGui::PushMultiItemsWidths(static_cast<int>(values.size()), value_width());
     for (std::size_t k = 0; k < values.size(); ++k) {
@@ -184,12 +216,19 @@ Dragged dragged_row(const DraggedRow& row, std::span<double> values) {
                               &row.highest, row.format, ImGuiSliderFlags_AlwaysClamp);
         });
         if (typed) value = std::clamp(value, row.lowest, row.highest);
+        if (item::reach(ItemKeys::slide,
+                        [&] { return number_words(row.label, row.format, value); })) {
+            const int steps = item::steps().across;
+            value =
+                std::clamp(value + steps * static_cast<double>(row.speed), row.lowest, row.highest);
+            stepped = stepped || steps != 0;
+        }
         ImGui::PopItemWidth();
         ImGui::PopID();
     }
     ImGui::EndGroup();
-    const bool done = ImGui::IsItemDeactivatedAfterEdit();
-    add_tooltip("Drag, or Ctrl+click to type a number");
+    const bool done = ImGui::IsItemDeactivatedAfterEdit() || stepped;
+    add_tooltip(kSlideByMouse);
     const bool restore = restore_arrow(row.changed);
     ImGui::PopID();
     return restore ? Dragged::restore : done ? Dragged::done : Dragged::nothing;
@@ -199,7 +238,7 @@ bool flag_row(const char* label, bool& value, bool standard, const char* help) {
     const bool before = value;
     const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
     ImGui::PushID(label);
-    ImGui::Checkbox(label, &value);
+    item::checkbox(label, &value);
     add_tooltip(help);
     if (value != standard) {
         ImGui::SameLine(right - arrow_width());
@@ -216,7 +255,7 @@ void text_beside_flag(const std::string& text) {
 
 void desktop_dialog_box(OpenWith& with) {
     bool asks = with != OpenWith::window;
-    if (ImGui::Checkbox("The desktop's dialog", &asks))
+    if (item::checkbox("The desktop's dialog", &asks))
         with = asks ? OpenWith::automatic : OpenWith::window;
     add_tooltip("Files are chosen in the desktop's own dialog, where there is one (--open-dialog)");
 }
@@ -227,7 +266,7 @@ bool index_row(const char* label, std::span<const char* const> names, int& chose
     ImGui::PushID(label);
     row_label(label, help);
     ImGui::SetNextItemWidth(value_width());
-    ImGui::Combo("##choice", &chosen, names.data(), static_cast<int>(names.size()));
+    item::list_box("##choice", label, names, chosen);
     add_tooltip(help);
     if (restore_arrow(chosen != standard)) chosen = standard;
     ImGui::PopID();
@@ -239,6 +278,7 @@ bool text_field(const char* id, const char* hint, std::span<char> text, const ch
     ImGui::SetNextItemWidth(width);
     const bool done = ImGui::InputTextWithHint(id, hint, text.data(), text.size(),
                                                enter ? ImGuiInputTextFlags_EnterReturnsTrue : 0);
+    item::reach(ItemKeys::type, [&] { return ItemWords{hint, "text", text.data()}; });
     add_tooltip(help);
     return done;
 }
@@ -264,13 +304,13 @@ float half_width() {
 }
 
 void report_button(ViewerState& state, const std::filesystem::path& session) {
-    if (ImGui::Button("Report", {-1.0F, 0.0F})) state.commands.push(MakeReport{session});
+    if (item::button("Report", {-1.0F, 0.0F})) state.commands.push(MakeReport{session});
     add_tooltip("One page: where, how long and how hard it was touched (dibhr report)");
 }
 
 bool button_or_drop(const char* label, bool enabled, const char* dropped, float beside) {
     ImGui::BeginDisabled(!enabled);
-    const bool pressed = ImGui::Button(label);
+    const bool pressed = item::button(label);
     ImGui::EndDisabled();
     const std::string text = formatted("or drop %s on the window", dropped);
     const float needed = ImGui::GetItemRectSize().x + ImGui::CalcTextSize(text.c_str()).x + beside +
@@ -329,7 +369,8 @@ void add_tooltip(const std::string& text, const KeyTable& keys, Action action) {
 }
 
 void add_tooltip(const char* text) {
-    if (*text == '\0' || !ImGui::IsItemHovered()) return;
+    const bool wanted = item::keyboard_is_on() ? item::has_keyboard() : ImGui::IsItemHovered();
+    if (*text == '\0' || !wanted) return;
     place_next_tooltip();
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * kTooltip_em);
@@ -343,13 +384,20 @@ bool name_button(const std::string& name) {
     const ImVec2 text = ImGui::CalcTextSize(name.c_str());
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const bool pressed = ImGui::Button("##button", {text.x + 2.0F * pad.x, text.y + 2.0F * pad.y});
+    item::reach(ItemKeys::press, [&] { return ItemWords{name, "button", {}}; });
     ImGui::GetWindowDrawList()->AddText({at.x + pad.x, at.y + pad.y},
                                         ImGui::GetColorU32(ImGuiCol_Text), name.c_str());
     return pressed;
 }
 
-bool name_selectable(const std::string& name, bool chosen, ImGuiSelectableFlags flags) {
+bool name_selectable(const std::string& name, bool chosen, ImGuiSelectableFlags flags,
+                     bool reached) {
     const bool pressed = ImGui::Selectable("##row", chosen, flags);
+    if (reached) {
+        item::reach(ItemKeys::press, [&] {
+            return ItemWords{name, "entry", chosen ? "chosen" : ""};
+        });
+    }
     ImGui::SameLine(0.0F, 0.0F);
     ImGui::TextUnformatted(name.c_str());
     return pressed;
@@ -381,8 +429,10 @@ void draw_warning(const std::string& text) {
 
 bool subsection(const char* title) {
     ImGui::Spacing();
-    return ImGui::TreeNodeEx(
+    const bool open = ImGui::TreeNodeEx(
         title, ImGuiTreeNodeFlags_SpanAvailWidth | ImGuiTreeNodeFlags_NoTreePushOnOpen);
+    item::reach(ItemKeys::press, [&] { return ItemWords{title, "section", open_word(open)}; });
+    return open;
 }
 
 bool icon_button(const char* id, Icon icon, const char* help, bool lit, float times) {
@@ -391,6 +441,7 @@ bool icon_button(const char* id, Icon icon, const char* help, bool lit, float ti
     const ImVec4 clear{0.0F, 0.0F, 0.0F, 0.0F};
     ImGui::PushStyleColor(ImGuiCol_Button, lit ? ImGui::GetStyleColorVec4(ImGuiCol_Button) : clear);
     const bool pressed = ImGui::Button("##icon", {side, side});
+    item::reach(ItemKeys::press, [&] { return ItemWords{help, "button", lit ? "on" : ""}; });
     ImGui::PopStyleColor();
     ImGui::PopID();
     const ImVec2 low = ImGui::GetItemRectMin();
@@ -423,39 +474,6 @@ void speed_row(double speed, Transport& transport) {
     if (number_row({"Speed", "x %.2f", kSlowestSpeed, kFastestSpeed, 1.0, "[ slower, ] faster"},
                    speed))
         transport.set_speed(speed);
-}
-
-std::string capitalised(std::string line) {
-    if (!line.empty()) {
-        line[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(line[0])));
-    }
-    return line;
-}
-
-std::string display_name(std::string name) {
-    std::replace(name.begin(), name.end(), '-', ' ');
-    return capitalised(std::move(name));
-}
-
-std::string formatted(const char* format, ...) {
-    char text[512];
-    std::va_list values;
-    va_start(values, format);
-    std::vsnprintf(text, sizeof text, format, values);
-    va_end(values);
-    return text;
-}
-
-std::string decimal(double value, int digits) {
-    std::string text = number_text(value, digits);
-    const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
-    return is_zero && text.front() == '-' ? text.substr(1) : text;
-}
-
-std::string date_text(const std::string& utc) {
-    constexpr std::size_t kDate = 10, kMinutes = 16, kWhole = 20;
-    if (utc.size() != kWhole || utc[kDate] != 'T' || utc.back() != 'Z') return utc;
-    return utc.substr(0, kDate) + " " + utc.substr(kDate + 1, kMinutes - kDate - 1) + " UTC";
 }
 
 void draw_parameters(TouchTopic topic, TouchParameters& parameters, TouchParameters usual) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/panels/icons.hpp"
+#include "app/panels/items.hpp"
 #include "app/panels/viewer_state.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/video/playing/transport.hpp"
@@ -136,7 +137,9 @@ void draw_dimmed(const std::string& text);
 /// Items that show a file's name unchanged, as ImGui's own labels cut it at "##". The caller must
 /// push an ID for each.
 bool name_button(const std::string& name);
-bool name_selectable(const std::string& name, bool chosen, ImGuiSelectableFlags flags = 0);
+/// `reached`: by the keyboard; else an item around them is.
+bool name_selectable(const std::string& name, bool chosen, ImGuiSelectableFlags flags = 0,
+                     bool reached = true);
 
 /// Wrapped text in the colour of warnings, after a warning sign.
 void draw_warning(const std::string& text);

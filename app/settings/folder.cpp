@@ -131,6 +131,10 @@ std::vector<std::string> endings_that_open() {
     return endings;
 }
 
+bool is_only_folder(const FolderEntry& entry) noexcept {
+    return entry.kind == FileKind::folder && !entry.recording;
+}
+
 bool can_be_opened(const FolderEntry& entry) noexcept {
     return entry.kind != FileKind::other;
 }
@@ -147,9 +151,11 @@ FolderEntry resolve_typed(const Folder& folder, const std::string& typed,
     if (is_live(named)) return {FileKind::video, named};
     for (const fs::path& place : {folder.path / named, whole_path(named)}) {
         std::error_code unknown;
-        if (fs::is_directory(place, unknown)) return {FileKind::folder, place};
+        if (fs::is_directory(place, unknown) && !place.has_filename())
+            return {FileKind::folder, place};
         if (!fs::exists(place, unknown)) continue;
         const auto known = index_of_entry(folder, place);
+        if (!known && fs::is_directory(place, unknown)) return {FileKind::folder, place};
         return known ? folder.entries[*known] : FolderEntry{FileKind::other, place};
     }
     return chosen ? *chosen : FolderEntry{FileKind::other, named};

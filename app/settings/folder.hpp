@@ -21,6 +21,7 @@ struct FolderEntry {
     std::filesystem::path depth{};  ///< of the same recording; empty: none
     std::uintmax_t bytes{0};        ///< both; 0 of a folder
     std::filesystem::file_time_type changed{};
+    bool recording{false};  ///< a folder that opens as one
 
     /// "take_color.mp4 + take_depth.mp4"
     [[nodiscard]] std::string name() const;
@@ -38,13 +39,17 @@ struct Folder {
 /// Extensions of the files that the program opens: ".mp4", in small letters.
 [[nodiscard]] std::vector<std::string> endings_that_open();
 
+/// Whether the entry is a place to look into, and no recording.
+[[nodiscard]] bool is_only_folder(const FolderEntry& entry) noexcept;
+
 /// Whether the program opens it: all kinds except `other`.
 [[nodiscard]] bool can_be_opened(const FolderEntry& entry) noexcept;
 
 /// The absolute path without ".."; unchanged where the current folder is unknown.
 [[nodiscard]] std::filesystem::path whole_path(const std::filesystem::path& file);
 
-/// The entry for a typed name: an existing file or folder in `folder` or in the current one; else
+/// The entry for a typed name: an existing file or folder in `folder` or in the current one (with a
+/// slash behind its name, a folder to look into); else
 /// `chosen`; else the typed name itself, so that opening it gives the error. Waits for the disk:
 /// not for the window's thread.
 [[nodiscard]] FolderEntry resolve_typed(const Folder& folder, const std::string& typed,

@@ -56,6 +56,8 @@ constexpr KeyJob kJobs[] = {
         "Brush that paints materials on the relief; end it", "G"),
     job(Action::undo, "undo", kTouch, "Take back what was painted", "Ctrl+Z"),
     job(Action::redo, "redo", kTouch, "Paint it again", "Ctrl+Shift+Z"),
+    job(Action::touch_by_keys, "touch-by-keys", kTouch,
+        "Arrows move the hand, Space presses; end it", "T"),
     job(Action::toggle_others, "toggle-others", kTouch, "Proxies of the other algorithms on, off",
         "O"),
     job(Action::play_or_pause, "play-or-pause", kPlayback, "Play, pause", "Space", "P"),
@@ -95,6 +97,11 @@ constexpr KeyJob kJobs[] = {
     job(Action::copy_view, "copy-view", kView, "Copy the camera's view", "Ctrl+C"),
     job(Action::paste_view, "paste-view", kView, "Take the copied view", "Ctrl+V"),
     job(Action::toggle_panels, "toggle-panels", kView, "Hide the panels, show them", "Tab"),
+    while_typing(job(Action::next_pane, "next-pane", kView,
+                     "Keyboard to the toolbar, the panels, the bar; Esc: back to the picture",
+                     "F6")),
+    while_typing(job(Action::previous_pane, "previous-pane", kView,
+                     "The same in the other direction", "Shift+F6")),
     while_typing(
         job(Action::toggle_full_screen, "toggle-full-screen", kView, "Full screen on, off", "F11")),
     while_typing(job(Action::open_file, "open-file", kProgram, "Open files", "Ctrl+O")),
@@ -147,6 +154,11 @@ constexpr NamedKey kNamedKeys[] = {
     {"F20", GLFW_KEY_F20},         {"F21", GLFW_KEY_F21},
     {"F22", GLFW_KEY_F22},         {"F23", GLFW_KEY_F23},
     {"F24", GLFW_KEY_F24}};
+
+/// In the order of HandKey.
+constexpr int kHandKeys[] = {GLFW_KEY_LEFT,  GLFW_KEY_RIGHT, GLFW_KEY_UP,      GLFW_KEY_DOWN,
+                             GLFW_KEY_SPACE, GLFW_KEY_ENTER, GLFW_KEY_PAGE_UP, GLFW_KEY_PAGE_DOWN};
+static_assert(std::size(kHandKeys) == static_cast<std::size_t>(HandKey::farther) + 1);
 
 constexpr std::string_view kSpace = "Space";
 constexpr std::string_view kControl = "Ctrl+";
@@ -434,7 +446,19 @@ std::optional<ListKey> list_key(int key) {
     if (key == GLFW_KEY_UP) return ListKey::up;
     if (key == GLFW_KEY_DOWN) return ListKey::down;
     if (key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER) return ListKey::take;
+    if (key == GLFW_KEY_TAB) return ListKey::complete;
     return std::nullopt;
+}
+
+std::optional<HandKey> hand_key(int key) {
+    if (key == GLFW_KEY_KP_ENTER) return HandKey::keep_pressing;
+    const auto* const found = std::ranges::find(kHandKeys, key);
+    if (found == std::end(kHandKeys)) return std::nullopt;
+    return static_cast<HandKey>(found - std::begin(kHandKeys));
+}
+
+int code_of(HandKey key) {
+    return kHandKeys[static_cast<std::size_t>(key)];
 }
 
 }  // namespace dibhr

@@ -42,12 +42,15 @@ enum class Action {
     toggle_brush,
     undo,
     redo,
+    touch_by_keys,
     toggle_others,
     reset_view,
     toggle_straight_view,
     show_as_recorded,
     turn_depth,
     toggle_panels,
+    next_pane,
+    previous_pane,
     toggle_statistics,
     next_paint,
     toggle_panes,
@@ -161,10 +164,18 @@ class KeyTable {
 /// key has none.
 [[nodiscard]] std::optional<int> digit_of(int key);
 
-/// What a key does in a list of choices.
-enum class ListKey { up, down, take };
+/// What a key does in a list of choices under a text line.
+enum class ListKey { up, down, take, complete };
 
 /// Nothing: the key has no meaning in a list.
 [[nodiscard]] std::optional<ListKey> list_key(int key);
+
+/// What a key does to the hand that keys move.
+enum class HandKey { left, right, up, down, press, keep_pressing, nearer, farther };
+
+/// Nothing: the key means nothing to the hand.
+[[nodiscard]] std::optional<HandKey> hand_key(int key);
+/// GLFW's code of its key; of `keep_pressing` one of two.
+[[nodiscard]] int code_of(HandKey key);
 
 }  // namespace dibhr

@@ -48,22 +48,6 @@ bool needs_hand(Action action) {
            action == Action::toggle_sound;
 }
 
-void close_topmost(ViewerState& state) {
-    if (!state.ui.message.empty()) {
-        state.ui.message.clear();
-    } else if (state.ui.dialog.shown) {
-        state.ui.dialog.shown = false;
-    } else if (!state.ui.unsafe_settings.empty() && !state.touch.replay) {
-        state.ui.unsafe_settings.clear();  // the next start asks again
-    } else if (state.ui.depth_offer && !state.ui.depth_offer->progress) {
-        state.commands.push(DepthOfferCommand::close);
-    } else if (asks_depth(state.ui)) {
-        state.commands.push(AnswerDepth{});
-    } else {
-        state.ui.help_open = false;
-    }
-}
-
 /// An arm that moves by itself offers to be stopped, without a warning.
 void stop_moving_arms(ViewerState& state) {
     for (const DeviceInfo& info : state.touch.devices) {
@@ -259,12 +243,26 @@ Answer perform(Action action, ViewerState& state, Transport& transport) {
         case Action::toggle_help:
             state.ui.help_open = !state.ui.help_open;
             return {};
-        case Action::close_topmost:
-            close_topmost(state);
-            return {};
         default:
             return {};
     }
+}
+
+bool close_topmost(ViewerState& state) {
+    if (!state.ui.message.empty()) {
+        state.ui.message.clear();
+    } else if (state.ui.dialog.shown) {
+        state.ui.dialog.shown = false;
+    } else if (!state.ui.unsafe_settings.empty() && !state.touch.replay) {
+        state.ui.unsafe_settings.clear();  // the next start asks again
+    } else if (state.ui.depth_offer && !state.ui.depth_offer->progress) {
+        state.commands.push(DepthOfferCommand::close);
+    } else if (asks_depth(state.ui)) {
+        state.commands.push(AnswerDepth{});
+    } else {
+        return std::exchange(state.ui.help_open, false);
+    }
+    return true;
 }
 
 void Ruler::press(bool down, const std::optional<Vec3>& under) {

@@ -21,6 +21,9 @@ struct Answer {
 /// Performs an action on the player or the window's state.
 Answer perform(Action action, ViewerState& state, Transport& transport);
 
+/// Closes the message, dialog, question or sheet that is in front; false: there was none.
+bool close_topmost(ViewerState& state);
+
 /// A view as text for the clipboard, and back; nothing: the text is not a view.
 [[nodiscard]] std::string text_of(const Camera::View& view);
 [[nodiscard]] std::optional<Camera::View> view_in(const std::string& text);

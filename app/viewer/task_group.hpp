@@ -85,6 +85,9 @@ class BackgroundTask {
         result_ = std::move(result);
     }
 
+    /// A running task runs on, but its result is dropped.
+    void drop() { result_ = {}; }
+
     /// The result, once it is there, once. Throws what `work` threw.
     [[nodiscard]] std::optional<Result> take() {
         if (!running() || result_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)

@@ -227,6 +227,8 @@ Viewer::Turn Viewer::take_turn() {
     state_.ui.window_width = static_cast<float>(window_.framebuffer_size().x);
     state_.ui.window_height = static_cast<float>(window_.framebuffer_size().y);
     move_hand(input);
+    state_.ui.focus = gui_.focus().words();
+    state_.ui.keys_move_hand = key_hand_.on();
     follow_kiosk(input);
     speak();  // before the picture, which may take long
     const bool drawn = draw_if_changed(input);

@@ -21,7 +21,7 @@
 #include "app/touching/pointer.hpp"
 #include "app/touching/touch_session.hpp"
 #include "app/viewer/asking.hpp"
-#include "app/viewer/browsing.hpp"
+#include "app/viewer/browsing/browsing.hpp"
 #include "app/viewer/clip.hpp"
 #include "app/viewer/desktop_dialog.hpp"
 #include "app/viewer/estimating.hpp"
@@ -30,6 +30,7 @@
 #include "app/viewer/guide/guide.hpp"
 #include "app/viewer/guide/speaking.hpp"
 #include "app/viewer/input.hpp"
+#include "app/viewer/key_hand.hpp"
 #include "app/viewer/message_log.hpp"
 #include "app/viewer/opening_window.hpp"
 #include "app/viewer/painting/painting.hpp"
@@ -174,9 +175,11 @@ class Viewer {
     void show_next_in_kiosk();
     void pass_over_in_kiosk();
     void perform_in_kiosk(KioskCommand command);
-    void take_dialog_key(const KeyPress& press);
+    [[nodiscard]] bool take_dialog_key(const KeyPress& press);
+    void close_topmost(bool in_list);
     [[nodiscard]] std::optional<Answer> perform_with_files(Action action);
     [[nodiscard]] std::optional<Answer> perform_with_view(Action action);
+    [[nodiscard]] std::optional<Answer> perform_with_keyboard(Action action);
     [[nodiscard]] std::optional<Answer> perform_with_brush(Action action);
     void paint(const PointerUse& use);
     void perform(Action action);
@@ -271,6 +274,7 @@ class Viewer {
     PicturePace pace_;
     Camera camera_{};
     ReliefMouse mouse_{};
+    KeyHand key_hand_{};
     std::optional<Vec3> pointed_at_{};  // on the drawn surface
     ViewerState state_{};
     ServiceSettings service_settings_;

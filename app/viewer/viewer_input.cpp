@@ -17,7 +17,10 @@ void Viewer::take_keys(const WindowInput& input) {
     // With the dialog open keys are text, even before its field has the keyboard; with a question
     // on the depth they answer; with a list open they are the list's.
     const bool in_list = gui_.list_is_open();
-    const bool typing = gui_.wants_keyboard() || state_.ui.dialog.shown ||
+    // A field that Enter opens is typed in one or two pictures later.
+    const bool opens_field = gui_.focus().on() && gui_.in_use() &&
+                             (state_.ui.focus.kind == "slider" || state_.ui.focus.kind == "text");
+    const bool typing = gui_.wants_keyboard() || opens_field || state_.ui.dialog.shown ||
                         state_.ui.depth_question.has_value() || in_list;
     const std::vector<int> held = state_.keys.held_keys(Action::show_as_recorded);
     const bool as_recorded = !typing && std::any_of(held.begin(), held.end(),
@@ -26,15 +29,18 @@ void Viewer::take_keys(const WindowInput& input) {
         show_notice("Depth as recorded");
     state_.media.as_recorded = as_recorded;
     const auto take = [this, in_list](Action action, EventTimes::Time at) {
-        if (action == Action::close_topmost && in_list)
-            gui_.close_lists();
+        if (action == Action::close_topmost)
+            close_topmost(in_list);
         else if (action == Action::mark && !state_.touch.replay)
             state_.commands.push(MarkMoment{at});
         else
             perform(action);
     };
     for (const KeyPress& press : input.keys) {
-        if (takes_keys(state_.ui.dialog) && state_.ui.message.empty()) take_dialog_key(press);
+        if (takes_keys(state_.ui.dialog) && state_.ui.message.empty() && take_dialog_key(press))
+            continue;
+        if (gui_.focus().take(press, gui_.wants_keyboard())) continue;
+        if (!typing && key_hand_.take(press, relief_viewport(), camera_)) continue;
         const std::optional<int> digit = digit_of(press.key);
         if (digit && !press.repeated && asks_depth(state_.ui)) take_digit(*digit, state_);
         if (const auto action = state_.keys.action_of_key(press.key, press.control, typing,
@@ -42,18 +48,62 @@ void Viewer::take_keys(const WindowInput& input) {
             take(*action, press.at);
     }
     if (typing) return;
+    const bool space_is_taken = gui_.focus().on() || key_hand_.on();
     for (const TypedCharacter& typed : input.characters) {
+        if (typed.code == ' ' && space_is_taken) continue;
         if (const auto action =
                 state_.keys.action_of_character(typed.code, typed.repeated, typed.shift))
             take(*action, typed.at);
     }
 }
 
-void Viewer::take_dialog_key(const KeyPress& press) {
+/// While its line has the keyboard, also before it is drawn. True: no other part takes the key.
+bool Viewer::take_dialog_key(const KeyPress& press) {
+    OpenDialog& dialog = state_.ui.dialog;
+    if (gui_.focus().on() && !gui_.wants_keyboard()) return false;
     const auto key = list_key(press.key);
-    if (key == ListKey::down) ++state_.ui.dialog.move;
-    if (key == ListKey::up) --state_.ui.dialog.move;
-    if (key == ListKey::take && !press.repeated) state_.ui.dialog.enter = true;
+    if (key == ListKey::down) ++dialog.move;
+    if (key == ListKey::up) --dialog.move;
+    if (key == ListKey::take && !press.repeated) dialog.enter = true;
+    if (key != ListKey::complete) return key.has_value();
+    const bool completes = !press.shift && dialog.typed.front() != '\0';
+    if (completes) state_.commands.push(CompleteTyped{dialog.typed.data()});
+    return completes;  // else it goes on to the next item
+}
+
+/// Closes what is on top; if that is nothing, the picture has the keyboard again.
+void Viewer::close_topmost(bool in_list) {
+    if (in_list)
+        gui_.close_lists();
+    else if (gui_.wants_keyboard() && gui_.focus().on() && !takes_keys(state_.ui.dialog))
+        return;  // it ends the typing
+    else if (!dibhr::close_topmost(state_))
+        gui_.focus().on() ? gui_.focus().leave() : key_hand_.end();
+}
+
+/// The keyboard in the panels, or on the hand.
+std::optional<Answer> Viewer::perform_with_keyboard(Action action) {
+    switch (action) {
+        case Action::next_pane:
+        case Action::previous_pane:
+            gui_.focus().go_to_area(action == Action::next_pane ? 1 : -1);
+            return Answer{};
+        case Action::touch_by_keys:
+            break;
+        default:
+            return std::nullopt;
+    }
+    gui_.focus().leave();
+    if (state_.touch.replay) return Answer{"A replay: no hand is touching"};
+    if (key_hand_.on()) {
+        key_hand_.end();
+        return Answer{"The hand is the mouse's again"};
+    }
+    glm::dvec2 place_px = window_.pointer().position_px;
+    place_px.y -= panes_height(state_);
+    key_hand_.begin(place_px, relief_viewport());
+    return Answer{"Arrows move the hand, Space presses, Enter keeps pressing" +
+                  state_.keys.key_hint(Action::touch_by_keys, " ends it")};
 }
 
 std::optional<Answer> Viewer::perform_with_files(Action action) {
@@ -120,6 +170,7 @@ void Viewer::perform(Action action) {
     Player& player = touch_.player();
     std::optional<Answer> answer = perform_with_files(action);
     if (!answer) answer = perform_with_view(action);
+    if (!answer) answer = perform_with_keyboard(action);
     if (!answer) answer = perform_with_brush(action);
     if (!answer) answer = explaining_.perform(action, state_, player, replay);
     if (!answer) answer = dibhr::perform(action, state_, transport());
@@ -141,19 +192,29 @@ void Viewer::move_hand(const WindowInput& input) {
 
 /// Between two pictures: the hand follows the pointer however long a picture takes.
 void Viewer::follow_pointer() {
-    if (const auto clicks = window_.take_pointer()) use_clicks(*clicks, 0.0);
+    const auto clicks = window_.take_pointer();
+    const bool by_keys = key_hand_.on() && HandKeys::of(window_).any();
+    if (clicks || by_keys) use_clicks(clicks.value_or(std::vector<PointerClick>{}), 0.0);
 }
 
 void Viewer::use_clicks(std::span<const PointerClick> clicks, double wheel_steps) {
-    for (const PointerClick& click : clicks) use_pointer(click.pointer, 0.0, click.at);
-    use_pointer(window_.pointer(), wheel_steps, steady_clock::now());
+    for (const PointerClick& click : clicks) {
+        key_hand_.end();
+        use_pointer(click.pointer, 0.0, click.at);
+    }
+    const auto now = steady_clock::now();
+    if (!key_hand_.on()) return use_pointer(window_.pointer(), wheel_steps, now);
+    const HandKeys keys = gui_.focus().on() ? HandKeys{} : HandKeys::of(window_);
+    Pointer pointer = key_hand_.follow(keys, now, relief_viewport());
+    pointer.position_px.y += panes_height(state_);
+    use_pointer(pointer, wheel_steps + key_hand_.take_wheel(), now);
 }
 
 /// `at`: when the pointer was so.
 void Viewer::use_pointer(const Pointer& now, double wheel_steps, EventTimes::Time at) {
     const glm::ivec2 viewport = relief_viewport();
     Pointer pointer = now;
-    const bool over_panel = gui_.covers(pointer.position_px);
+    const bool over_panel = !key_hand_.on() && gui_.covers(pointer.position_px);
     const auto on_panes = place_on_panes(state_, pointer.position_px);
     pointer.position_px.y -= panes_height(state_);  // the relief is below the panes
     PointerUse use = mouse_.use(pointer, wheel_steps, over_panel, viewport, camera_);

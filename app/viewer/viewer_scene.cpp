@@ -135,9 +135,9 @@ void Viewer::lay_out_panels(std::span<const KeyPress> pressed, const std::functi
         camera_.clip_from_grid(static_cast<double>(viewport.x) / viewport.y);
     draw_ruler(state_, clip_from_grid);
     draw_brush(state_, clip_from_grid);
+    draw_toolbar(state_);
     if (state_.settings.panels_visible) draw_panel_column(state_, transport());
     draw_bottom_bar(state_, transport());
-    draw_toolbar(state_);
     const auto fade = [](float& alpha) { alpha = std::max(0.0F, alpha - 0.03F); };
     if (state_.ui.touched) fade(hint_alpha_);
     if (pressed_deeper_) fade(wheel_hint_alpha_);

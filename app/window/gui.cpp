@@ -205,6 +205,15 @@ class LingeringKeys {
   private:
     std::vector<int> keys_{};
 };
+#else
+/// The focus moves by Tab, not ImGui.
+void drop_tabs() {
+    ImVector<ImGuiInputEvent>& events = ImGui::GetCurrentContext()->InputEventsQueue;
+    const auto is_tab = [](const ImGuiInputEvent& event) {
+        return event.Type == ImGuiInputEventType_Key && event.Key.Key == ImGuiKey_Tab;
+    };
+    events.erase(std::remove_if(events.begin(), events.end(), is_tab), events.end());
+}
 #endif
 
 }  // namespace
@@ -214,10 +223,14 @@ Gui::Gui(const Window& window, const GuiStyle& gui_style) : style_(gui_style) {
     ImGui::SetAllocatorFunctions(allocate_or_throw, [](void* memory, void*) { std::free(memory); });
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
+    ImGui::GetIO().UserData = &focus_;
     set_style(style_);
     fonts_ = load_fonts(style_.scale);
     ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
     ImGui_ImplOpenGL3_Init("#version 330");
+#if IMGUI_VERSION_NUM < 18700
+    ImGui::GetIO().KeyMap[ImGuiKey_Tab] = -1;  // the focus moves by it, not ImGui
+#endif
 }
 
 Gui::~Gui() {
@@ -247,14 +260,17 @@ void Gui::begin(std::span<const KeyPress> pressed) {
     const LingeringKeys lingering(pressed);
 #else
     static_cast<void>(pressed);  // this ImGui has a queue of key events
+    drop_tabs();
 #endif
     ImGui::NewFrame();
+    focus_.begin();
     constexpr bool kFocusReturns = true;
     if (std::exchange(closes_lists_, false) && list_is_open())
         ImGui::ClosePopupToLevel(0, kFocusReturns);
 }
 
 void Gui::end() {
+    focus_.end(style_.scale);
     ImGui::Render();
 }
 
@@ -288,7 +304,7 @@ std::size_t Gui::content() const {
 }
 
 bool Gui::in_use() const {
-    return ImGui::IsAnyItemActive() || ImGui::IsAnyMouseDown();
+    return ImGui::IsAnyItemActive() || ImGui::IsAnyMouseDown() || focus_.busy();
 }
 
 void Gui::copy(const std::string& text) {

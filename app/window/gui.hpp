@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/settings/theme.hpp"
+#include "app/window/keyboard_focus.hpp"
 #include "app/window/window.hpp"
 
 struct ImFont;
@@ -43,7 +44,7 @@ class Gui {
     /// A hash of all that draw() would draw, but of the pixels of pictures in the panels.
     [[nodiscard]] std::size_t content() const;
     /// A person presses a button of the mouse, or has hold of something in a panel: a text, a
-    /// slider.
+    /// slider; or keys are still to be carried out in the panels.
     [[nodiscard]] bool in_use() const;
 
     /// A panel of the last picture is at that place of the window [px], or a list is open.
@@ -56,6 +57,8 @@ class Gui {
     [[nodiscard]] std::string copied() const;
     /// Call between two pictures. A new scale takes some milliseconds: fonts are loaded again.
     void apply(const GuiStyle& gui_style);
+    /// The way of the keyboard through the panels.
+    [[nodiscard]] KeyboardFocus& focus() { return focus_; }
     [[nodiscard]] const Fonts& fonts() const { return fonts_; }
     [[nodiscard]] float scale() const { return style_.scale; }
 
@@ -63,6 +66,7 @@ class Gui {
     GuiStyle style_;
     Fonts fonts_{};
     bool closes_lists_{false};
+    KeyboardFocus focus_{};
 };
 
 }  // namespace dibhr

@@ -272,6 +272,10 @@ bool Window::holds(int key) const {
     return key_down(window_, key);
 }
 
+bool Window::holds_control() const {
+    return holds(GLFW_KEY_LEFT_CONTROL) || holds(GLFW_KEY_RIGHT_CONTROL);
+}
+
 glm::ivec2 Window::window_size() const {
     return glfwGetWindowMonitor(window_) != nullptr ? size_ : pending_.window_size;
 }

@@ -120,6 +120,7 @@ class Window {
     [[nodiscard]] Pointer pointer() const;
     /// Whether a GLFW key is down now.
     [[nodiscard]] bool holds(int key) const;
+    [[nodiscard]] bool holds_control() const;
     [[nodiscard]] glm::ivec2 framebuffer_size() const { return pending_.framebuffer_size; }
     [[nodiscard]] glm::ivec2 window_size() const;  ///< when not on the full screen [screen units]
     /// Of text and panels: `requested`, or if that is 0, the display's own scale (1: an ordinary

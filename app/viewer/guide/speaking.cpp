@@ -7,9 +7,13 @@ namespace dibhr {
 
 std::string news_of(const Spoken& now, const Spoken& before) {
     constexpr std::array kByWeight{&Spoken::message, &Spoken::notice, &Spoken::focus,
-                                   &Spoken::region,  &Spoken::text,   &Spoken::caption};
-    for (const auto part : kByWeight)
-        if (now.*part != before.*part && !(now.*part).empty()) return now.*part;
+                                   &Spoken::value,   &Spoken::region, &Spoken::text,
+                                   &Spoken::caption};
+    for (const auto part : kByWeight) {
+        if (now.*part == before.*part || (now.*part).empty()) continue;
+        const bool with_value = part == &Spoken::focus && !now.value.empty();
+        return with_value ? now.focus + ", " + now.value : now.*part;
+    }
     return {};
 }
 
@@ -17,6 +21,8 @@ Spoken spoken_of(const ViewerState& state, double now_s) {
     const UiState& ui = state.ui;
     Spoken spoken{.message = ui.message, .region = ui.region.name, .caption = ui.caption};
     if (now_s < ui.notice_until_s && !ui.notice_shows_position) spoken.notice = ui.notice;
+    if (!ui.focus.kind.empty()) spoken.focus = ui.focus.label + ", " + ui.focus.kind;
+    spoken.value = ui.focus.value;
     if (ui.region.rests) spoken.text = ui.region.text;
     return spoken;
 }

@@ -14,7 +14,8 @@ namespace dibhr {
 struct Spoken {
     std::string message{};  ///< of the box
     std::string notice{};   ///< in words; empty: none is shown
-    std::string focus{};    ///< the part of a panel that has the keyboard
+    std::string focus{};    ///< the part of a panel that has the keyboard: "Mute, check box"
+    std::string value{};    ///< and its value; spoken after it, or alone where only it has changed
     std::string region{};   ///< the name of what is under the finger
     std::string text{};     ///< and its text, once the finger rests
     std::string caption{};  ///< of the recording

@@ -58,6 +58,12 @@ struct Seen {
     std::uint64_t dialog_entries{0};
     bool dialog_reads{false};
     bool dialog_typing{false};  ///< its line has the keyboard
+    SeenText dialog_folder{}, dialog_chosen{};
+    std::uint64_t dialog_recordings{0};  ///< folders that are marked so
+    SeenText preview_text{};
+    bool preview_depth{false};                      ///< a picture of the depth is shown
+    SeenText focus{}, focus_kind{}, focus_value{};  ///< of the item that has the keyboard
+    bool keys_move_hand{false};
     bool statistics{false};
     bool ruler{false};
     int ruler_points{0};

@@ -62,6 +62,16 @@ void see_ui(const UiState& ui, Seen& seen) {
     seen.dialog_reads = ui.dialog.is_reading;
     seen.dialog_typing = ui.dialog.shown && ui.dialog.pictures_to_focus == 0;
     seen.dialog_entries = ui.dialog.rows.entries.size();
+    seen.dialog_folder.set(ui.dialog.folder.path.string());
+    seen.dialog_chosen.set(ui.dialog.chosen.string());
+    for (const FolderEntry& entry : ui.dialog.folder.entries)
+        seen.dialog_recordings += entry.recording ? 1 : 0;
+    seen.preview_text.set(ui.dialog.preview.text);
+    seen.preview_depth = ui.dialog.preview.depth != 0;
+    seen.focus.set(ui.focus.label);
+    seen.focus_kind.set(ui.focus.kind);
+    seen.focus_value.set(ui.focus.value);
+    seen.keys_move_hand = ui.keys_move_hand;
     seen.statistics = ui.statistics;
     seen.ruler = ui.ruler.has_value();
     seen.ruler_points = ui.ruler ? static_cast<int>(ui.ruler->places.size()) : 0;

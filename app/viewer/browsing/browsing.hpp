@@ -1,6 +1,8 @@
 // Reads folders and previews for the Open dialog on other threads; opens a folder's next file.
 #pragma once
 
+#include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -8,6 +10,7 @@
 
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/folder.hpp"
+#include "app/viewer/browsing/recording_folders.hpp"
 #include "app/viewer/task_group.hpp"
 #include "core/video/frames/frame_window.hpp"
 #include "render/gl_objects.hpp"
@@ -18,6 +21,9 @@ class Browsing {
   public:
     /// The task group must outlive it.
     explicit Browsing(TaskGroup& tasks);
+    ~Browsing();
+    Browsing(const Browsing&) = delete;
+    Browsing& operator=(const Browsing&) = delete;
 
     /// Shows or hides the dialog.
     void toggle(ViewerState& state);
@@ -45,25 +51,35 @@ class Browsing {
   private:
     struct Read {
         std::filesystem::path file{};
-        std::shared_ptr<const ColourImage> picture{};
+        std::shared_ptr<const ColourImage> colour{}, depth{};
         std::string text{};
+        bool opens{false};
     };
+    using Stop = std::shared_ptr<std::atomic<bool>>;  // true: the preview is not wanted any more
+    using Clock = std::chrono::steady_clock;
 
-    static Read read_preview(const FolderEntry& entry);
+    static Read read_preview(const FolderEntry& entry, const Stop& stop);
+    void begin_preview(const FolderEntry* chosen);
+    void mark_recordings(OpenDialog& dialog);
     void take_folder(OpenDialog& dialog);
     void take_typed(ViewerState& state);
     void advance_preview(OpenDialog& dialog);
     [[nodiscard]] std::string open_neighbour(const Folder& folder, ViewerState& state) const;
 
     std::filesystem::path sample_folder_;
-    std::shared_ptr<const ColourImage> picture_{};
-    ColourTexture texture_{};
+    std::shared_ptr<const ColourImage> colour_{}, depth_{};
+    ColourTexture colour_texture_{}, depth_texture_{};
+    std::filesystem::path wanted_{};  // the entry whose preview is shown, read or waited for
+    Clock::time_point wanted_at_{};
+    bool waits_{false};  // for the choice to rest
+    Stop stop_{};
     int neighbour_offset_{0};
     int entered_in_{0};  // OpenDialog::line at enter(); a result for another line is dropped
     BackgroundTask<Folder> folder_;
     BackgroundTask<Completion> completion_;
     BackgroundTask<FolderEntry> typed_;
     BackgroundTask<Read> preview_;
+    RecordingFolders recordings_;
     BackgroundTask<Folder> neighbours_;
 };
 

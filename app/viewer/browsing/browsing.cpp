@@ -1,14 +1,20 @@
 // The Open dialog's folder and preview, and the next file of a folder.
-#include "app/viewer/browsing.hpp"
+#include "app/viewer/browsing/browsing.hpp"
 
+#include <cmath>
+#include <cstdint>
 #include <exception>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "app/panels/widgets.hpp"
 #include "app/settings/assets_path.hpp"
 #include "app/viewer/files.hpp"
 #include "core/error.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/session/session.hpp"
+#include "render/relief_paint.hpp"
 
 namespace dibhr {
 
@@ -17,6 +23,41 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kMostPreview_px = 640;
+constexpr std::chrono::milliseconds kRest{120};  // of the choice, before its preview is read
+
+/// "640 x 480", "12.4 s, 372 frames", and what the opening chose.
+std::string text_of(const MediaDescription& media) {
+    std::string text =
+        std::to_string(media.depth_columns) + " x " + std::to_string(media.depth_rows);
+    if (media.still) {
+        text += "\nA still picture";
+    } else if (media.live) {
+        text += "\nLive";
+    } else {
+        text += "\n" + clock_text(media.duration_s) + ", " + (media.frames_exact ? "" : "about ") +
+                std::to_string(media.frames) + " frames";
+    }
+    return media.notice.empty() ? text : text + "\n" + capitalised(media.notice) + ".";
+}
+
+std::string text_of(const Session& session) {
+    std::string text = clock_text(session.end_s() - session.begin_s()) + " of touch";
+    const std::size_t marks = session.marks().size();
+    if (marks > 0) text += ", " + std::to_string(marks) + (marks > 1 ? " marks" : " mark");
+    const fs::path colour = session.fact("colour");
+    return colour.empty() ? text : text + "\nof " + colour.filename().string();
+}
+
+/// Near is light. Where there is no data, it is as far as the farthest.
+std::shared_ptr<const ColourImage> depth_preview(DepthImage depth) {
+    std::vector<std::uint8_t> unseen(depth.levels.size());
+    for (std::size_t k = 0; k < unseen.size(); ++k) {
+        if (std::isfinite(depth.levels[k])) continue;
+        unseen[k] = 1;
+        depth.levels[k] = 0.0F;
+    }
+    return depth_picture(depth, &unseen, ReliefPaint::viridis, kMostPreview_px);
+}
 
 /// The shown file; of a pair the one that was named.
 fs::path shown_file(const ViewerState& state) {
@@ -38,7 +79,12 @@ Browsing::Browsing(TaskGroup& tasks)
       completion_(tasks),
       typed_(tasks),
       preview_(tasks),
+      recordings_(tasks),
       neighbours_(tasks) {}
+
+Browsing::~Browsing() {
+    if (stop_) *stop_ = true;
+}
 
 void Browsing::toggle(ViewerState& state) {
     if (state.ui.dialog.shown) {
@@ -99,6 +145,7 @@ void Browsing::enter(const TypedFile& entered, const OpenDialog& dialog) {
 std::optional<std::string> Browsing::advance(ViewerState& state) {
     take_folder(state.ui.dialog);
     take_typed(state);
+    mark_recordings(state.ui.dialog);
     advance_preview(state.ui.dialog);
     if (const auto folder = neighbours_.take()) return open_neighbour(*folder, state);
     return std::nullopt;
@@ -110,6 +157,7 @@ void Browsing::take_folder(OpenDialog& dialog) {
     dialog.folder = std::move(*folder);
     dialog.is_reading = false;
     ++dialog.reading_number;
+    recordings_.search(dialog.folder);
     // The row of a pair is named by its colour.
     if (const auto row = index_of_entry(dialog.folder, dialog.chosen))
         dialog.chosen = dialog.folder.entries[*row].file;
@@ -120,38 +168,77 @@ void Browsing::take_typed(ViewerState& state) {
     if (auto completion = completion_.take()) dialog.completion = std::move(*completion);
     const auto meant = typed_.take();
     if (!meant || !dialog.shown || dialog.line != entered_in_) return;
-    if (meant->kind == FileKind::folder) return go_to(meant->file, dialog);
+    if (is_only_folder(*meant)) return go_to(meant->file, dialog);
     state.commands.push(request_for(*meant));
     dialog.shown = false;
 }
 
-void Browsing::advance_preview(OpenDialog& dialog) {
-    if (auto preview = preview_.take()) {
-        picture_ = std::move(preview->picture);
-        dialog.preview = {.file = std::move(preview->file), .text = std::move(preview->text)};
-        if (picture_) {
-            dialog.preview.columns = picture_->columns;
-            dialog.preview.rows = picture_->rows;
-            dialog.preview.texture = texture_.show(picture_, kMostPreview_px, false);
-        }
-    }
-    if (!dialog.shown || dialog.chosen.empty() || dialog.preview.file == dialog.chosen) return;
-    const auto chosen = index_of_entry(dialog.folder, dialog.chosen);
-    if (!chosen || preview_.running()) return;
-    preview_.start([entry = dialog.folder.entries[*chosen]] { return read_preview(entry); });
+void Browsing::mark_recordings(OpenDialog& dialog) {
+    for (const fs::path& folder : recordings_.take())
+        if (const auto entry = index_of_entry(dialog.folder, folder))
+            dialog.folder.entries[*entry].recording = true;
 }
 
-Browsing::Read Browsing::read_preview(const FolderEntry& entry) {
+/// Shows the preview of the chosen entry once that has rested for a moment; one of another entry
+/// that is still being read is not waited for.
+void Browsing::advance_preview(OpenDialog& dialog) {
+    const auto at = index_of_entry(dialog.folder, dialog.chosen);
+    const fs::path chosen = dialog.shown && at ? dialog.chosen : fs::path();
+    if (chosen != wanted_) {
+        if (stop_) *stop_ = true;
+        preview_.drop();
+        wanted_ = chosen;
+        wanted_at_ = Clock::now();
+        waits_ = !chosen.empty();
+        dialog.preview = {};
+    }
+    if (waits_ && Clock::now() >= wanted_at_ + kRest) {
+        waits_ = false;
+        stop_ = std::make_shared<std::atomic<bool>>(false);
+        preview_.restart([entry = dialog.folder.entries[*at], stop = stop_] {
+            return read_preview(entry, stop);
+        });
+    }
+    auto read = preview_.take();
+    if (!read) return;
+    if (at && read->opens && read->file == chosen)
+        dialog.folder.entries[*at].recording = dialog.folder.entries[*at].kind == FileKind::folder;
+    colour_ = std::move(read->colour);
+    depth_ = std::move(read->depth);
+    Preview& preview = dialog.preview;
+    preview = {.file = std::move(read->file), .text = std::move(read->text)};
+    if (colour_) {
+        preview.columns = colour_->columns;
+        preview.rows = colour_->rows;
+        preview.colour = colour_texture_.show(colour_, kMostPreview_px, false);
+    }
+    if (depth_) {
+        preview.depth_columns = depth_->columns;
+        preview.depth_rows = depth_->rows;
+        preview.depth = depth_texture_.show(depth_, kMostPreview_px, false);
+    }
+}
+
+Browsing::Read Browsing::read_preview(const FolderEntry& entry, const Stop& stop) {
     Read read{.file = entry.file};
-    if (entry.kind != FileKind::video && entry.kind != FileKind::picture) return read;
     try {
+        if (entry.kind == FileKind::session) {
+            read.text = text_of(Session(entry.file));
+            return read;
+        }
+        if (entry.kind == FileKind::other) return read;
+        if (entry.kind == FileKind::folder && !may_be_recording(entry.file)) return read;
         const auto media = open_request(request_for(entry));
-        const auto first = media->next();
-        const MediaDescription& about = media->description();
-        if (first) read.picture = std::make_shared<const ColourImage>(first->colour);
-        read.text = std::to_string(about.depth_columns) + " x " + std::to_string(about.depth_rows);
-    } catch (const std::exception&) {  // the reason is shown when the file is opened
-        read.text = "No depth was found for it.";
+        read.opens = true;
+        read.text = text_of(media->description());
+        if (*stop) return read;
+        auto first = media->next();
+        if (!first || *stop) return read;
+        read.depth = depth_preview(std::move(first->depth));
+        if (!first->colour.rgb.empty())
+            read.colour = std::make_shared<const ColourImage>(std::move(first->colour));
+    } catch (const std::exception&) {  // the reason is shown when it is opened
+        if (entry.kind != FileKind::folder) read.text = "No depth was found for it.";
     }
     return read;
 }

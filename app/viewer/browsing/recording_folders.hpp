@@ -1,0 +1,37 @@
+// Which folders are recordings: found out for the Open dialog, one after the other.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "app/settings/folder.hpp"
+#include "app/viewer/task_group.hpp"
+
+namespace dibhr {
+
+/// Whether a folder may be a recording, by the names in it. Waits for the disk.
+[[nodiscard]] bool may_be_recording(const std::filesystem::path& folder);
+
+/// Opens each folder in a folder as the program would, on a thread of its own.
+class RecordingFolders {
+  public:
+    /// The task group must outlive it.
+    explicit RecordingFolders(TaskGroup& tasks) : search_(tasks) {}
+    ~RecordingFolders();
+    RecordingFolders(const RecordingFolders&) = delete;
+    RecordingFolders& operator=(const RecordingFolders&) = delete;
+
+    /// Begins with another folder; the search in the one before ends.
+    void search(const Folder& folder);
+    /// Those that were found since the last call.
+    [[nodiscard]] std::vector<std::filesystem::path> take();
+
+  private:
+    struct Found;
+
+    BackgroundTask<bool> search_;
+    std::shared_ptr<Found> found_{};  // shared with the thread; null: no search yet
+};
+
+}  // namespace dibhr
