@@ -244,9 +244,20 @@ std::string SessionReader::damage_found() const {
         return cause_;
     }
     const std::string log = file_.string() + "-wal";
-    if (log_ == Log::needed && is_log_damaged(log))
+    if (log_ == Log::needed && is_log_damaged(log) && log_has_more_ticks())
         return "torn pages in " + file_.filename().string() + "-wal";
     return {};
+}
+
+/// Whether a damaged log holds much after the damage, where SQLite ends. A power cut leaves less:
+/// of the last pages, which were not flushed yet, some are missing.
+bool SessionReader::log_has_more_ticks() const try {
+    constexpr std::int64_t kMostUnflushed = 2000;  // LogKeeper flushes once a second
+    constexpr const char* kLast = "SELECT ifnull(max(tick), -1) FROM tick_data";
+    const RescuedTables tables = rescued_tables(file_, true, {});
+    return tables.database->number(kLast) - database_->number(kLast) > kMostUnflushed;
+} catch (const DatabaseError&) {  // of an older schema
+    return true;
 }
 
 void SessionReader::refuse(const DatabaseError& error) {

@@ -59,6 +59,7 @@ class SessionReader {
     [[nodiscard]] Log log_by_head();
     /// In SQLite's words; empty: nothing.
     [[nodiscard]] std::string damage_found() const;
+    [[nodiscard]] bool log_has_more_ticks() const;
     void open();
     void rescue();
     /// Of every query.

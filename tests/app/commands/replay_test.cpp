@@ -479,8 +479,9 @@ TEST_CASE("what can be read of a damaged session is, by every command, and one l
     record_session(folder / "mine.dibhr", session);
     const std::string whole = read_text(folder / "mine.dibhr");
     std::string torn = whole;
-    std::fill(torn.begin() + static_cast<std::ptrdiff_t>(torn.size() / 2),
-              torn.begin() + static_cast<std::ptrdiff_t>(torn.size() / 2 + 20000), 'x');
+    constexpr std::size_t kPage = 16384;
+    for (std::size_t page = 4 * kPage; page + kPage <= torn.size(); page += 4 * kPage)
+        std::fill_n(torn.begin() + static_cast<std::ptrdiff_t>(page), kPage, 'x');
     for (const auto& [bytes, word] :
          {std::pair(whole.substr(0, whole.size() * 4 / 5), "mine.dibhr: is cut short ("),
           std::pair(torn, "mine.dibhr: is damaged: ")}) {

@@ -281,18 +281,18 @@ TEST_CASE("whoever keeps the usual values finds them in the file", "[consent]") 
 }
 
 TEST_CASE("whoever closes the question says nothing, and a replay has none to close", "[consent]") {
-    Player player;
     ViewerState state;
     state.ui.unsafe_settings.resize(2);
     state.ui.help_open = true;
     state.touch.replay.emplace();
-    perform(Action::close_topmost, state, player);
+    CHECK(close_topmost(state));
     CHECK(state.ui.unsafe_settings.size() == 2);
     CHECK_FALSE(state.ui.help_open);
     state.touch.replay.reset();
-    perform(Action::close_topmost, state, player);
+    CHECK(close_topmost(state));
     CHECK(state.ui.unsafe_settings.empty());
     CHECK(state.commands.empty());
+    CHECK_FALSE(close_topmost(state));
 }
 
 TEST_CASE("a command is known as it was agreed to, to the last byte, and is seen whole",
