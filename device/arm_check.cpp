@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <optional>
 #include <string>
 #include <thread>
@@ -27,6 +28,7 @@ constexpr double kMetre_mm = 1000.0;
 constexpr double kHeaviest_g = 2000.0;
 constexpr double kMost_newton = 4.0;                     // of any arm: the viewer's own limit
 constexpr std::array kOnTheScale{0.25, 0.5, 0.75, 1.0};  // parts of the greatest force
+constexpr double kLeastWay_m = 0.01;
 constexpr std::array kAxes{"x", "y", "z"};
 constexpr std::chrono::milliseconds kBetweenCalls{1};
 
@@ -143,6 +145,10 @@ void check_axes(CheckContext& context, Json& measured) {
         const Vec3 from_m = context.arm.position_m();
         context.begin(std::string("Move the grip some centimetres ") + way + ", then Enter.");
         const Vec3 way_m = context.arm.position_m() - from_m;
+        if (glm::length(way_m) < kLeastWay_m) {
+            context.console.print("The grip was not moved: its axes stay open.");
+            return;
+        }
         measured[way] = along_axes(way_m * kMetre_mm);
         words += (words.empty() ? "" : ", ") + std::string(way) + " is " + axis_of(way_m);
         as_expected = as_expected && axis_of(way_m) == expected.at(k);

@@ -18,6 +18,7 @@
 
 #include "app/commands/command_line.hpp"
 #include "app/commands/kiosk.hpp"
+#include "app/commands/opening.hpp"
 #include "app/commands/output.hpp"
 #include "app/settings/assets_path.hpp"
 #include "app/settings/command_options.hpp"
@@ -131,12 +132,6 @@ void add_playing_options(CLI::App& app, ViewCommand& command) {
     add_kiosk_options(app, options.kiosk);
 }
 
-/// Whether the command line sets the relief, which then replaces the remembered one.
-bool gives_relief(const TouchRequest& touch) {
-    return touch.raw_depth || touch.given.fit_relief ||
-           touch.given.value_of(*touch_number("relief")) != nullptr;
-}
-
 /// A replay has its recorded surface and is not recorded again: refuses other options.
 void require_replay_options(const ViewOptions& options) {
     const TouchRequest& touch = options.touch;
@@ -233,62 +228,6 @@ void apply_touch_options(const TouchRequest& touch, ViewerParts& parts, Settings
         parts.bump = touch.given.read_bumps();
     }
     touch.given.apply(settings.touch);
-}
-
-/// Opens what the command line names. May wait for disk and network: not for the window's thread.
-void open_named(const ViewOptions& options, OpenedFiles& files) {
-    if (is_session_file(options.open.colour)) {
-        files.session = std::make_unique<OpenedSession>(options.open.colour, options.any_media,
-                                                        options.surfaces);
-        files.warnings = {files.session->session.warning(), files.session->frames.warning};
-        return;
-    }
-    files.media = open_request(options.open);
-    const MediaDescription& media = files.media->description();
-    if (options.must_be_sure || options.asks_nobody())
-        files.doubt = report_doubt(media, options.must_be_sure);
-    files.memory = memory_of(*files.media);
-    files.maps = find_maps(media);
-    files.guide = find_guide(media);
-    if (gives_relief(options.touch)) files.memory.relief_px.reset();
-    if (options.start_given || options.end_s || !options.clip.empty()) files.memory.at_s = 0.0;
-    files.warnings = {media.notice};
-}
-
-/// Throws InputError, unless the window opens without the files, too, and can open others.
-OpenedFiles open_files(const ViewOptions& options) {
-    OpenedFiles files;
-    try {
-        open_named(options, files);
-    } catch (const InputError& error) {
-        if (!options.stays && !options.open.colour.empty()) throw;
-        files = {};
-        files.lacks_depth = dynamic_cast<const DepthMissing*>(&error) != nullptr;
-        files.trouble = error.what();
-    }
-    return files;
-}
-
-/// Opens the window while `opening` opens the files. Null: there is no display or no OpenGL, and
-/// `trouble` is the error.
-std::unique_ptr<OpeningWindow> open_window(const ViewOptions& options, OpeningWindow::Time begin,
-                                           std::exception_ptr& trouble) try {
-    return std::make_unique<OpeningWindow>(options, begin);
-} catch (const DeviceError&) {
-    trouble = std::current_exception();
-    return nullptr;
-}
-
-/// The files, once they are open. Nothing: a person or a signal ended the program before.
-std::optional<OpenedFiles> wait_for_files(BackgroundTask<OpenedFiles>& opening,
-                                          OpeningWindow* window, const ShutdownWatchdog& shutdown) {
-    constexpr std::chrono::milliseconds kPause{20};
-    std::optional<OpenedFiles> files;
-    while (!(files = opening.take())) {
-        if (shutdown.requested() || (window != nullptr && !window->wait())) break;
-        opening.wait_until(std::chrono::steady_clock::now() + kPause);
-    }
-    return files;
 }
 
 /// Waits for background tasks. False: one still waits for a disk or opens a large file. After a

@@ -121,6 +121,7 @@ bool StudyWindow::over() const {
 
 /// The display is lost: all answers are in the file already.
 void StudyWindow::leave_without_display() {
+    shutdown_.end_loop();
     surface_.stop();
 }
 

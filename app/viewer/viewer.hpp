@@ -168,6 +168,8 @@ class Viewer {
     void take_opened();
     [[nodiscard]] std::optional<OpeningShown> opening_shown() const;
     void follow_live();
+    [[nodiscard]] bool keys_are_text() const;
+    [[nodiscard]] HandKeys hand_keys() const;
     void take_keys(const WindowInput& input);
     void take_kiosk_keys(const WindowInput& input);
     void follow_kiosk(const WindowInput& input);

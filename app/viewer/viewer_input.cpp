@@ -12,16 +12,26 @@ namespace dibhr {
 
 using std::chrono::steady_clock;
 
-void Viewer::take_keys(const WindowInput& input) {
-    if (options_.kiosk) return take_kiosk_keys(input);
-    // With the dialog open keys are text, even before its field has the keyboard; with a question
-    // on the depth they answer; with a list open they are the list's.
-    const bool in_list = gui_.list_is_open();
+/// With the dialog open keys are text, even before its field has the keyboard; with a question on
+/// the depth they answer; with a list open they are the list's.
+bool Viewer::keys_are_text() const {
     // A field that Enter opens is typed in one or two pictures later.
     const bool opens_field = gui_.focus().on() && gui_.in_use() &&
                              (state_.ui.focus.kind == "slider" || state_.ui.focus.kind == "text");
-    const bool typing = gui_.wants_keyboard() || opens_field || state_.ui.dialog.shown ||
-                        state_.ui.depth_question.has_value() || in_list;
+    return gui_.wants_keyboard() || opens_field || state_.ui.dialog.shown ||
+           state_.ui.depth_question.has_value() || gui_.list_is_open();
+}
+
+/// Of the hand by keyboard, while no panel has the keyboard.
+HandKeys Viewer::hand_keys() const {
+    const bool taken = !key_hand_.on() || gui_.focus().on() || keys_are_text();
+    return taken ? HandKeys{} : HandKeys::of(window_);
+}
+
+void Viewer::take_keys(const WindowInput& input) {
+    if (options_.kiosk) return take_kiosk_keys(input);
+    const bool in_list = gui_.list_is_open();
+    const bool typing = keys_are_text();
     const std::vector<int> held = state_.keys.held_keys(Action::show_as_recorded);
     const bool as_recorded = !typing && std::any_of(held.begin(), held.end(),
                                                     [this](int key) { return window_.holds(key); });
@@ -193,8 +203,7 @@ void Viewer::move_hand(const WindowInput& input) {
 /// Between two pictures: the hand follows the pointer however long a picture takes.
 void Viewer::follow_pointer() {
     const auto clicks = window_.take_pointer();
-    const bool by_keys = key_hand_.on() && HandKeys::of(window_).any();
-    if (clicks || by_keys) use_clicks(clicks.value_or(std::vector<PointerClick>{}), 0.0);
+    if (clicks || hand_keys().any()) use_clicks(clicks.value_or(std::vector<PointerClick>{}), 0.0);
 }
 
 void Viewer::use_clicks(std::span<const PointerClick> clicks, double wheel_steps) {
@@ -204,8 +213,7 @@ void Viewer::use_clicks(std::span<const PointerClick> clicks, double wheel_steps
     }
     const auto now = steady_clock::now();
     if (!key_hand_.on()) return use_pointer(window_.pointer(), wheel_steps, now);
-    const HandKeys keys = gui_.focus().on() ? HandKeys{} : HandKeys::of(window_);
-    Pointer pointer = key_hand_.follow(keys, now, relief_viewport());
+    Pointer pointer = key_hand_.follow(hand_keys(), now, relief_viewport());
     pointer.position_px.y += panes_height(state_);
     use_pointer(pointer, wheel_steps + key_hand_.take_wheel(), now);
 }

@@ -50,11 +50,10 @@ void ShutdownWatchdog::begin_turn() noexcept {
         turn_ = std::max(now - began, turn_.load() - turn_.load() / 8);
 }
 
-/// The turn that runs may be the longest one: the first relief takes a second to be drawn.
-void ShutdownWatchdog::take_running_turn() noexcept {
-    const auto lasts = ShutdownRequests::Time::clock::now() - turn_began_.load();
-    if (turn_.load() > ShutdownRequests::Time::duration::zero())
-        turn_ = std::max(lasts, turn_.load());
+ShutdownRequests::Time::duration ShutdownWatchdog::longest_turn(
+    ShutdownRequests::Time::duration running) const noexcept {
+    const auto turn = turn_.load();
+    return turn > ShutdownRequests::Time::duration::zero() ? std::max(turn, running) : turn;
 }
 
 void ShutdownWatchdog::run() {
@@ -63,10 +62,12 @@ void ShutdownWatchdog::run() {
     pthread_setname_np(pthread_self(), "dibhr-signals");
     ShutdownRequests requests;
     HeartbeatMonitor monitor(&heart_);
+    // The turn at the first request may be the longest one: the first relief takes a second.
+    Clock::duration running{};
     bool again = false;
     while (!again) {
         const auto now = Clock::now();
-        if (requests.is_hung(now, turn_, monitor.silence(now))) break;
+        if (requests.is_hung(now, longest_turn(running), monitor.silence(now))) break;
         int display = display_;
         std::array<pollfd, 3> ready{{{wake_.descriptor(), POLLIN, 0},
                                      {signals_.descriptor(), POLLIN, 0},
@@ -80,7 +81,7 @@ void ShutdownWatchdog::run() {
         if (!signals_.arrived()) continue;
         if (!requests.any()) {
             heart_.beat();
-            take_running_turn();
+            running = Clock::now() - turn_began_.load();
         }
         again = requests.is_repeated(Clock::now());
         without_force_ = true;

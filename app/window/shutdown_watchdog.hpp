@@ -66,7 +66,9 @@ class ShutdownWatchdog {
 
   private:
     void run();
-    void take_running_turn() noexcept;
+    /// Of the window's loop, or of its turn that has run for `running`; 0: outside the loop.
+    [[nodiscard]] ShutdownRequests::Time::duration longest_turn(
+        ShutdownRequests::Time::duration running) const noexcept;
 
     CrashNote& crash_note_;
     ShutdownSignals signals_{};

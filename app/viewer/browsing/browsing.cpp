@@ -144,6 +144,7 @@ void Browsing::enter(const TypedFile& entered, const OpenDialog& dialog) {
 
 std::optional<std::string> Browsing::advance(ViewerState& state) {
     take_folder(state.ui.dialog);
+    if (!state.ui.dialog.shown) recordings_.stop();
     take_typed(state);
     mark_recordings(state.ui.dialog);
     advance_preview(state.ui.dialog);

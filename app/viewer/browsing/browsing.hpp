@@ -59,7 +59,6 @@ class Browsing {
     using Clock = std::chrono::steady_clock;
 
     static Read read_preview(const FolderEntry& entry, const Stop& stop);
-    void begin_preview(const FolderEntry* chosen);
     void mark_recordings(OpenDialog& dialog);
     void take_folder(OpenDialog& dialog);
     void take_typed(ViewerState& state);

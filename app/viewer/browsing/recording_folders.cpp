@@ -60,12 +60,13 @@ bool may_be_recording(const fs::path& folder) {
     return false;
 }
 
-RecordingFolders::~RecordingFolders() {
+void RecordingFolders::stop() {
     if (found_) found_->stops = true;
+    found_.reset();
 }
 
 void RecordingFolders::search(const Folder& folder) {
-    if (found_) found_->stops = true;
+    stop();
     found_ = std::make_shared<Found>();
     search_.restart([entries = folder.entries, found = found_] {
         for (const FolderEntry& entry : entries) {

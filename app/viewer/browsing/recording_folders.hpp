@@ -18,12 +18,13 @@ class RecordingFolders {
   public:
     /// The task group must outlive it.
     explicit RecordingFolders(TaskGroup& tasks) : search_(tasks) {}
-    ~RecordingFolders();
+    ~RecordingFolders() { stop(); }
     RecordingFolders(const RecordingFolders&) = delete;
     RecordingFolders& operator=(const RecordingFolders&) = delete;
 
     /// Begins with another folder; the search in the one before ends.
     void search(const Folder& folder);
+    void stop();
     /// Those that were found since the last call.
     [[nodiscard]] std::vector<std::filesystem::path> take();
 
