@@ -365,6 +365,28 @@ TEST_CASE("a frame of the log with the number of a page that cannot be costs tha
     CHECK(ticks.size() + 200 > all.size());
 }
 
+TEST_CASE("where an older version of a page is taken its ticks are found or said to be lost",
+          "[session]") {
+    constexpr std::size_t kFrame = kPage + 24;
+    const SessionFolder folder;
+    const auto copied = copy_unfinished(folder, 5000, false);
+    const auto log = std::filesystem::path(copied.string() + "-wal");
+    const Ticks all = [&] { return ticks_of(Session(copied).reader()); }();
+    const std::string root =
+        answer(folder.file(), "SELECT rootpage FROM sqlite_master WHERE name = 'tick_data'");
+    std::string bytes = read_text(log);
+    for (std::size_t frame = 32; frame + kFrame <= bytes.size(); frame += kFrame)
+        if (static_cast<unsigned char>(bytes[frame + 3]) == std::stoul(root) &&
+            bytes[frame + 2] == 0)
+            bytes.replace(frame + 24, kPage, kPage, 'x');
+    write(log, bytes);
+    Session session(copied);
+    session.rescue_if_damaged();
+    REQUIRE(session.is_damaged());
+    CHECK(ticks_of(session.reader()) == all);
+    CHECK(contains(session.warning(), "cannot be read (from "));
+}
+
 TEST_CASE("a table whose statement is damaged is read by this schema's and no query is run",
           "[session]") {
     const SessionFolder folder;
