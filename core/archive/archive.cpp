@@ -108,13 +108,19 @@ class ArchiveWriter {
     }
 
     /// Of a damaged one, what can be read.
-    static void copy(const Session& session, const fs::path& to) {
+    void copy(const Session& session, const fs::path& to) const {
         const SessionReader& reader = session.reader();
         if (!reader.is_rescued())
             return copy_database(reader.file(), to, reader.log() != SessionReader::Log::needed);
-        Statement copy = reader.rows("VACUUM INTO ?");
-        copy.bind(std::string_view(to.native()));
-        static_cast<void>(copy.next());
+        try {
+            Statement copy = reader.rows("VACUUM INTO ?");
+            copy.bind(std::string_view(to.native()));
+            static_cast<void>(copy.next());
+        } catch (const InputError&) {  // what it reads are tables of dibhr's own
+            throw InputError(text_in(request_.folder) + ": what can be read of " +
+                             text_in(session.file()) +
+                             " cannot be written there; make room, also in TMPDIR");
+        }
     }
 
     void remove_folders_of(const fs::path& session, const fs::path& original) {

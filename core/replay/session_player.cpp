@@ -105,14 +105,12 @@ class SessionMoments {
     std::shared_ptr<const TouchedFrames> frames_{};  // of the last tick with a surface
 };
 
-std::unique_ptr<ContactBand> read_band(const std::filesystem::path& file, bool damaged,
-                                       double begin_s, double end_s,
-                                       const std::atomic<bool>& stopping) {
+std::unique_ptr<ContactBand> read_band(const std::filesystem::path& file, double begin_s,
+                                       double end_s, const std::atomic<bool>& stopping) {
     auto band = std::make_unique<ContactBand>();
     const double pieces_per_s =
         static_cast<double>(ContactBand::kPieces) / std::max(end_s - begin_s, 1e-3);
-    SessionReader reader(file);
-    if (damaged) reader.rescue_if_damaged();
+    SessionReader reader(file, IfDamaged::refuse);
     auto query = reader.rows("SELECT t, contact, stand_in FROM tick WHERE surface ORDER BY tick");
     while (!stopping && query.next()) {
         ++band->hand.all;
@@ -430,12 +428,14 @@ const SessionPlayback& SessionPlayer::playback() const {
     return implementation_->playback;
 }
 
-ContactBandReader::ContactBandReader(const Session& session)
-    : result_(std::async(std::launch::async,
-                         [this, file = session.file(), damaged = session.reader().is_rescued(),
-                          begin_s = session.begin_s(), end_s = session.end_s()] {
-                             return read_band(file, damaged, begin_s, end_s, stopping_);
-                         })) {}
+ContactBandReader::ContactBandReader(const Session& session) {
+    if (session.reader().is_rescued()) return;
+    result_ = std::async(
+        std::launch::async,
+        [this, file = session.file(), begin_s = session.begin_s(), end_s = session.end_s()] {
+            return read_band(file, begin_s, end_s, stopping_);
+        });
+}
 
 ContactBandReader::~ContactBandReader() {
     stopping_ = true;

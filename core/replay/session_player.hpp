@@ -108,7 +108,8 @@ class ContactBandReader {
     ContactBandReader(const ContactBandReader&) = delete;
     ContactBandReader& operator=(const ContactBandReader&) = delete;
 
-    /// Null until it is read, or when reading failed: the player reports why.
+    /// Null until it is read, for a damaged session, which would have to be rescued once more, and
+    /// when reading failed: the player reports why.
     [[nodiscard]] const ContactBand* band();
 
   private:

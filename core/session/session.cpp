@@ -143,11 +143,13 @@ std::string ticks_from(const SessionReader& reader, std::int64_t tick, bool dama
 
 }  // namespace
 
-Session::Session(const std::filesystem::path& file) : reader_(file) {
+Session::Session(const std::filesystem::path& file, IfDamaged if_damaged)
+    : reader_(file, if_damaged) {
     try {
         read();
     } catch (const InputError&) {
-        if (reader_.is_rescued() || !reader_.rescue_if_damaged()) throw;
+        if (if_damaged == IfDamaged::refuse || reader_.is_rescued() || !reader_.rescue_if_damaged())
+            throw;
         read();
     }
 }

@@ -27,7 +27,7 @@ struct ClockDrift {
 class Session {
   public:
     /// Reads all but the ticks; of a file whose damage it meets, what can be read.
-    explicit Session(const std::filesystem::path& file);
+    explicit Session(const std::filesystem::path& file, IfDamaged if_damaged = IfDamaged::rescue);
 
     /// Checks the whole file for damage, as SessionReader does; takes a second or two for an hour's
     /// recording.

@@ -9,6 +9,7 @@
 #include <set>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
@@ -27,7 +28,8 @@ std::string brief(std::string_view words) {
 
 }  // namespace
 
-SessionReader::SessionReader(const std::filesystem::path& file) : file_(file), log_(log_by_head()) {
+SessionReader::SessionReader(const std::filesystem::path& file, IfDamaged if_damaged)
+    : file_(file), log_(log_by_head()) {
     if (damage_.empty()) {
         try {
             open();
@@ -36,6 +38,7 @@ SessionReader::SessionReader(const std::filesystem::path& file) : file_(file), l
             if (damage_.empty()) throw;
         }
     }
+    if (if_damaged == IfDamaged::refuse) throw damage_error(damage_, cause_);
     rescue();
 }
 
@@ -64,7 +67,12 @@ Database::ErrorHandler SessionReader::refusal() {
 void SessionReader::rescue() {
     const std::string damage = damage_;
     const std::string cause = cause_;
+    struct Guard {
+        bool& is_set;
+        ~Guard() { is_set = false; }
+    };
     rescuing_ = true;
+    const Guard guard{rescuing_};
     try {
         RescuedTables tables = rescued_tables(file_, log_ == Log::needed, refusal());
         database_ = std::move(tables.database);
@@ -72,20 +80,17 @@ void SessionReader::rescue() {
         read_schema();
         if (database_->number("SELECT count(*) FROM (SELECT 1 FROM tick_data LIMIT 1)") == 0)
             refuse("no tick");
-        tables.database = std::move(database_);
-        const std::string loss = loss_text(tables);
-        database_ = std::move(tables.database);
         Statement(*database_, "INSERT OR REPLACE INTO session(key, value) VALUES (?, ?)")
-            .run(kDamageFact, loss);
+            .run(kDamageFact, loss_text(*database_, tables.incomplete));
     } catch (const InputError&) {
         if (!is_database(file_)) refuse("no SQLite file");
         throw damage_error(damage, cause);
     } catch (const DatabaseError& error) {
+        if (error.cause() != DatabaseError::Cause::disk) throw damage_error(damage, error.what());
         throw InputError(file_.string() + ": " + damage +
                          ", and what is left of it cannot be put into TMPDIR (" +
                          brief(error.what()) + "); make room there");
     }
-    rescuing_ = false;
     damage_ = damage;
     rescued_ = true;
 }
@@ -174,24 +179,22 @@ SessionReader::Log SessionReader::log_by_head() {
     // SQLite's file format, section 1.3: at 16 the size of a page, 1 for 65536; at 18 and 19 a 2
     // each for a write-ahead log; at 28 the number of pages, valid if the numbers at 24 and 92 are
     // the same. All big-endian.
-    std::array<unsigned char, 100> head{};
     std::ifstream stream(file_, std::ios::binary);
-    stream.read(reinterpret_cast<char*>(head.data()), head.size());
+    std::vector<std::uint8_t> head = bytes_at(stream, 0, 100);
     if (!stream.is_open()) throw InputError(file_.string() + ": cannot be read; make it readable");
     // Checked after the head was read: a recording that ends meanwhile has no log any more.
     const bool logged = std::filesystem::exists(file_.string() + "-wal", failed);
     // SQLite would delete the log of an empty file as a leftover.
-    if (stream.gcount() == 0 && logged)
+    if (head.empty() && logged)
         throw InputError(file_.string() + ": is empty, and only " + file_.filename().string() +
                          "-wal, the log of its recording, is beside it; copy both again from where "
                          "it was recorded");
-    if (stream.gcount() == 0) refuse("it is empty");
+    if (head.empty()) refuse("it is empty");
     if (!is_database(file_)) damage_ = "is damaged";
     if (!damage_.empty()) return logged ? Log::needed : Log::none;
+    head.resize(100);
     const auto number = [&head](std::size_t at, std::size_t bytes) {
-        std::uint64_t value = 0;
-        for (std::size_t k = at; k < at + bytes; ++k) value = value << 8U | head[k];
-        return value;
+        return big_endian(std::span(head).subspan(at, bytes));
     };
     const bool by_log = head[18] == 2 && head[19] == 2;
     if (by_log && logged) return Log::needed;  // which may hold what the file lacks
@@ -229,9 +232,10 @@ void SessionReader::check() const {
     if (!cause.empty()) throw damage_error("is damaged", cause);
 }
 
-InputError SessionReader::damage_error(const std::string& damage, const std::string& cause) const {
-    return InputError(file_.string() + ": " + damage +
-                      (cause.empty() ? "" : " (" + brief(cause) + ")") + "; copy it again");
+DamagedSession SessionReader::damage_error(const std::string& damage,
+                                           const std::string& cause) const {
+    return DamagedSession(file_.string() + ": " + damage +
+                          (cause.empty() ? "" : " (" + brief(cause) + ")") + "; copy it again");
 }
 
 std::string SessionReader::damage_found() const {

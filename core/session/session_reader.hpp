@@ -16,6 +16,16 @@ namespace dibhr {
 /// The fact of what could not be read of a damaged session.
 inline constexpr const char* kDamageFact = "damage";
 
+/// It is a session's file as far as can be seen, and damaged.
+class DamagedSession : public InputError {
+  public:
+    using InputError::InputError;
+};
+
+/// What is done with a damaged session: what can be read of it is, which takes the time to read
+/// all of it, or it is refused.
+enum class IfDamaged { rescue, refuse };
+
 /// One session, read while it is recorded or afterwards, by one thread at a time. Of a damaged file
 /// it has what can be read, as tables of its own; pages that are lost are missing rows. A file of
 /// an earlier schema has the tables and columns of this one in the reader's memory; a file of a
@@ -23,8 +33,9 @@ inline constexpr const char* kDamageFact = "damage";
 class SessionReader {
   public:
     /// Throws InputError for a file that is missing, no session, made to keep a reader busy, or so
-    /// damaged that no tick of it can be read.
-    explicit SessionReader(const std::filesystem::path& file);
+    /// damaged that no tick of it can be read; DamagedSession for one that is to be refused.
+    explicit SessionReader(const std::filesystem::path& file,
+                           IfDamaged if_damaged = IfDamaged::rescue);
     SessionReader(const SessionReader&) = delete;  // its database refers to it
     SessionReader& operator=(const SessionReader&) = delete;
 
@@ -72,8 +83,8 @@ class SessionReader {
     void require_tables(std::span<const std::string_view> names) const;
     /// Tables and columns of the file that this schema lacks, as a list; empty: none.
     [[nodiscard]] std::string unknown_parts() const;
-    [[nodiscard]] InputError damage_error(const std::string& damage,
-                                          const std::string& cause) const;
+    [[nodiscard]] DamagedSession damage_error(const std::string& damage,
+                                              const std::string& cause) const;
     /// Refuses a foreign or damaged file.
     [[noreturn]] void refuse(const DatabaseError& error);
     [[noreturn]] void refuse(const std::string& reason) const;

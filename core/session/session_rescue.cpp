@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <ranges>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -55,7 +56,7 @@ class Rescue {
   public:
     Rescue(const std::filesystem::path& file, bool with_log, const Database::ErrorHandler& refuse)
         : pages_(file, with_log, kSessionPageBytes, kLongestSessionValue_bytes),
-          owned_(std::size_t{pages_.count()} + 1) {
+          owned_(std::max<std::size_t>(std::size_t{pages_.count()} + 1, 2)) {
         rescued_.database =
             std::make_unique<Database>(Database::Scratch{file, kLongestSessionValue_bytes}, refuse);
     }
@@ -65,6 +66,8 @@ class Rescue {
         database.execute("BEGIN");
         make_tables();
         for (Tree& tree : trees_) read(tree);
+        if (pages_.lacks_frames())
+            for (const Tree& tree : trees_) rescued_.incomplete.insert(tree.name);
         adopt_lost_leaves();
         trees_.clear();
         if (lacks({"surface", "grid", "grid_tile", "tile", "bump_map"})) drop_half_surfaces();
@@ -83,25 +86,31 @@ class Rescue {
         Tree master{.name = "sqlite_master", .root = 1};
         std::vector<StoredRow> rows;
         walk(master, [&rows](StoredPage& page) {
-            std::ranges::move(page.rows, std::back_inserter(rows));
+            constexpr std::size_t kMostRows = 500;
+            for (StoredRow& row : page.rows)
+                if (row.values.size() == 5 && rows.size() < kMostRows)
+                    rows.push_back(std::move(row));
             return true;
         });
         if (!rows.empty()) return rows;
-        owned_[1] = true;
+        rescued_.incomplete.insert("sqlite_master");
+        return rows_of_this_schema();
+    }
+
+    [[nodiscard]] static std::vector<StoredRow> rows_of_this_schema() {
+        std::vector<StoredRow> rows;
         const Database here(":memory:");
         here.execute("PRAGMA page_size = " + std::to_string(kSessionPageBytes));
         here.execute(session_schema());
         for (Statement row(here, "SELECT type, name, rootpage, sql FROM sqlite_master");
              row.next();)
             rows.push_back({0, {row.text(0), row.text(1), {}, row.integer(2), row.text(3)}});
-        rescued_.incomplete.insert("sqlite_master");
         return rows;
     }
 
     void make_tables() {
         const Database& database = *rescued_.database;
         for (const StoredRow& row : table_rows()) {
-            if (row.values.size() != 5) continue;
             const auto* type = std::get_if<std::string>(&row.values[0]);
             const auto* name = std::get_if<std::string>(&row.values[1]);
             const auto* root = std::get_if<std::int64_t>(&row.values[3]);
@@ -109,11 +118,7 @@ class Rescue {
             if (type == nullptr || name == nullptr || root == nullptr) continue;
             const bool view = *type == "view" && *name == "tick";
             const bool table = *type == "table" && *root > 0 && !name->starts_with("sqlite_");
-            // An untrusted statement: nothing but this may be run.
-            const bool made =
-                sql != nullptr && ((view && sql->starts_with("CREATE VIEW tick AS ")) ||
-                                   (table && sql->starts_with("CREATE TABLE ")));
-            if (made) static_cast<void>(Statement(database, *sql).next());
+            const bool made = (view || table) && make(*name, view, sql == nullptr ? "" : *sql);
             if (*root > 0)
                 trees_.push_back({.name = *name, .root = static_cast<std::uint32_t>(*root)});
             if (table && made) describe(trees_.back());
@@ -125,6 +130,29 @@ class Rescue {
             database.execute(std::string("PRAGMA ") + name + " = " +
                              std::to_string(number.value_or(static_cast<std::uint32_t>(known))));
         }
+    }
+
+    /// By its own statement, or, where that is damaged, by this schema's; false: by none.
+    bool make(const std::string& name, bool view, const std::string& sql) {
+        if (make_by(sql, name, view)) return true;
+        rescued_.incomplete.insert(name);
+        return std::ranges::any_of(rows_of_this_schema(), [&](const StoredRow& row) {
+            return std::get<std::string>(row.values[1]) == name &&
+                   make_by(std::get<std::string>(row.values[4]), name, view);
+        });
+    }
+
+    bool make_by(const std::string& sql, const std::string& name, bool view) const try {
+        // An untrusted statement: nothing but this may be run, and no query fill a table.
+        const std::string begin = view ? "CREATE VIEW tick AS " : "CREATE TABLE " + name;
+        if (!sql.starts_with(begin)) return false;
+        const std::size_t next = sql.find_first_not_of(" \n", begin.size());
+        if (next == std::string::npos || (!view && sql[next] != '(')) return false;
+        static_cast<void>(Statement(*rescued_.database, sql).next());
+        return true;
+    } catch (const DatabaseError& error) {
+        if (error.cause() == DatabaseError::Cause::disk) throw;
+        return false;
     }
 
     /// Columns by the table that was made.
@@ -143,7 +171,8 @@ class Rescue {
             tree.types.push_back(column.text(0));
             marks += marks.empty() ? "?" : ", ?";
         }
-        tree.index = database.number("SELECT wr FROM pragma_table_list(" + in_quotes + ")") != 0;
+        tree.index = database.number("SELECT count(*) FROM pragma_table_list(" + in_quotes +
+                                     ") WHERE wr") > 0;
         if (keys != 1 || tree.index) tree.number_column = -1;
         if (!tree.types.empty())
             tree.insert.emplace(database, "INSERT OR IGNORE INTO \"" +
@@ -161,22 +190,30 @@ class Rescue {
     /// Calls visit(page) for each page of the tree that can be read; false: it is of another one.
     template <typename Visit>
     void walk(const Tree& tree, Visit&& visit) {
-        std::vector<std::uint32_t> next{tree.root};
+        std::vector<std::uint32_t> next;
+        const auto add = [&](std::uint32_t number) {
+            if (number == 0 || number >= owned_.size() || owned_[number]) return false;
+            owned_[number] = true;
+            next.push_back(number);
+            return true;
+        };
+        bool complete = add(tree.root);
         while (!next.empty()) {
-            const std::uint32_t number = next.back();
+            std::optional<StoredPage> page = read_page(next.back());
             next.pop_back();
-            const bool mine = number > 0 && number < owned_.size() && !owned_[number];
-            std::optional<StoredPage> page;
-            if (mine) {
-                owned_[number] = true;
-                page = pages_.page(number);
-            }
-            if (!page || !visit(*page)) {
-                rescued_.incomplete.insert(tree.name);
-                continue;
-            }
-            next.insert(next.end(), page->children.rbegin(), page->children.rend());
+            const bool read = page && visit(*page);
+            complete = complete && read && !page->older;
+            if (!read) continue;
+            for (const std::uint32_t child : page->children | std::views::reverse)
+                complete = add(child) && complete;
         }
+        if (!complete) rescued_.incomplete.insert(tree.name);
+    }
+
+    [[nodiscard]] std::optional<StoredPage> read_page(std::size_t number) {
+        std::optional<StoredPage> page = pages_.page(static_cast<std::uint32_t>(number));
+        any_page_ = any_page_ || page;
+        return page;
     }
 
     void read(Tree& tree) {
@@ -216,10 +253,12 @@ class Rescue {
 
     /// Leaves whose branches are lost are of the one damaged table that has such rows.
     void adopt_lost_leaves() {
-        for (std::uint32_t number = 2; !rescued_.incomplete.empty() && number < owned_.size();
+        constexpr std::size_t kMostWithoutAny = 400;  // then it is no database
+        for (std::size_t number = 2; !rescued_.incomplete.empty() && number < owned_.size();
              ++number) {
             if (owned_[number]) continue;
-            const std::optional<StoredPage> page = pages_.page(number);
+            if (!any_page_ && number > kMostWithoutAny) return;
+            const std::optional<StoredPage> page = read_page(number);
             if (!page || !page->children.empty() || page->rows.empty()) continue;
             Tree* only = nullptr;
             bool several = false;
@@ -267,6 +306,7 @@ class Rescue {
 
     DatabasePages pages_;
     std::vector<bool> owned_;  ///< pages that a tree led to
+    bool any_page_{false};     ///< was whole
     RescuedTables rescued_{};
     std::vector<Tree> trees_{};
     TileUnpacker unpacker_{};
@@ -275,13 +315,13 @@ class Rescue {
 /// What is lost of the ticks.
 class TickLoss {
   public:
-    explicit TickLoss(const RescuedTables& tables) : database_(*tables.database) {
-        Statement extent(database_, "SELECT count(*), min(tick), max(tick) FROM tick_data");
-        if (!extent.next()) return;
-        rows_ = extent.integer(0);
-        first_ = extent.integer(1);
-        last_ = extent.integer(2);
-        in_gaps_ = last_ - first_ + 1 - rows_ - dropped();
+    TickLoss(const Database& database, bool incomplete) : database_(database) {
+        rows_ = number_of("SELECT count(*) FROM tick_data").value_or(0);
+        first_ = number_of("SELECT min(tick) FROM tick_data").value_or(0);
+        last_ = number_of("SELECT max(tick) FROM tick_data").value_or(-1);
+        dropped_ =
+            std::max<std::int64_t>(number_of("SELECT max(dropped) FROM clock").value_or(0), 0);
+        in_gaps_ = last_ - first_ + 1 - rows_ - dropped_;
         if (number_of("SELECT value FROM session WHERE key = 'complete'").value_or(0) != 0)
             recorded_ = number_of("SELECT value FROM session WHERE key = 'row_count'");
         if (const auto first = number_of("SELECT min(first_tick) FROM parameters"))
@@ -289,7 +329,7 @@ class TickLoss {
         if (recorded_)
             at_end_ = *recorded_ - rows_ - in_gaps_ - at_begin_ > 0;
         else
-            at_end_ = tables.incomplete.contains("tick_data") && in_gaps_ <= 0 && at_begin_ == 0;
+            at_end_ = incomplete && in_gaps_ <= 0 && at_begin_ == 0;
     }
 
     [[nodiscard]] std::string text() const {
@@ -325,6 +365,9 @@ class TickLoss {
             add("from " + time_of(gaps.integer(0)) + " to " + time_of(gaps.integer(1)));
         }
         if (at_end_) add("from " + time_of(last_) + " on");
+        // Which ones, no table says.
+        if (in_gaps_ > 0 && dropped_ > 0)
+            text += "; " + std::to_string(dropped_) + " more there were never recorded";
         return text;
     }
 
@@ -336,19 +379,17 @@ class TickLoss {
         return number_text(row.next() ? row.real(0) : 0.0, 3) + " s";
     }
 
-    /// By the recorder, whose ring was full.
-    [[nodiscard]] std::int64_t dropped() const {
-        return std::max<std::int64_t>(number_of("SELECT max(dropped) FROM clock").value_or(0), 0);
-    }
-
-    /// Nothing: NULL or no row.
+    /// Nothing: NULL or no row. Limited, so that no sum of some overflows.
     [[nodiscard]] std::optional<std::int64_t> number_of(const char* sql) const {
+        constexpr std::int64_t kMost = std::int64_t{1} << 53U;
         Statement row(database_, sql);
-        return row.next() && row.has(0) ? std::optional(row.integer(0)) : std::nullopt;
+        if (!row.next() || !row.has(0)) return std::nullopt;
+        return std::clamp(row.integer(0), -kMost, kMost);
     }
 
     const Database& database_;
     std::int64_t rows_{0}, first_{0}, last_{-1};
+    std::int64_t dropped_{0};  ///< by the recorder, whose ring was full
     std::int64_t in_gaps_{0}, at_begin_{0};
     bool at_end_{false};
     std::optional<std::int64_t> recorded_{};
@@ -389,9 +430,9 @@ RescuedTables rescued_tables(const std::filesystem::path& file, bool with_log,
     return Rescue(file, with_log, refuse).run();
 }
 
-std::string loss_text(const RescuedTables& tables) {
-    const std::string others = other_losses(tables.incomplete);
-    return TickLoss(tables).text() +
+std::string loss_text(const Database& database, const std::set<std::string>& incomplete) {
+    const std::string others = other_losses(incomplete);
+    return TickLoss(database, incomplete.contains("tick_data")).text() +
            (others.empty() ? "" : "; not all can be read of its " + others);
 }
 

@@ -24,7 +24,8 @@ struct RescuedTables {
                                            const Database::ErrorHandler& refuse);
 
 /// What is missing: "312 of 6000 ticks cannot be read (from 3.2 s to 3.4 s)". `database` has the
-/// tables of this schema.
-[[nodiscard]] std::string loss_text(const RescuedTables& tables);
+/// tables of this schema; `incomplete` are those of RescuedTables.
+[[nodiscard]] std::string loss_text(const Database& database,
+                                    const std::set<std::string>& incomplete);
 
 }  // namespace dibhr

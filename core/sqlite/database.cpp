@@ -88,6 +88,9 @@ DatabaseError::Cause cause_of(int code) noexcept {
             return Cause::too_long;
         case SQLITE_CANTOPEN:
             return Cause::cannot_open;
+        case SQLITE_FULL:
+        case SQLITE_IOERR:
+            return Cause::disk;
         default:
             return Cause::other;
     }
@@ -210,7 +213,7 @@ DatabaseError Database::last_error() const {
     const int code = primary(sqlite3_errcode(handle_.get()));
     if (writes_ && code == SQLITE_IOERR) {
         const std::string limit = file_size_limit_met(handle_.get());
-        if (!limit.empty()) return DatabaseError(limit);
+        if (!limit.empty()) return DatabaseError(limit, DatabaseError::Cause::disk);
     }
     std::string words = sqlite3_errmsg(handle_.get());
     const int error = writes_ ? sqlite3_system_errno(handle_.get()) : 0;

@@ -29,6 +29,7 @@ class DatabaseError : public std::runtime_error {
         too_much_work,  ///< a query took more steps than its limit
         too_long,       ///< a value is longer than the limit
         cannot_open,    ///< the file, or its log
+        disk,           ///< it is full, or fails
     };
 
     explicit DatabaseError(const std::string& words, Cause cause = Cause::other)

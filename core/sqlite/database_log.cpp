@@ -91,18 +91,24 @@ std::vector<std::uint8_t> bytes_at(std::ifstream& file, std::uint64_t at, std::s
 }
 
 LoggedPages logged_pages(std::ifstream& log, std::size_t page_bytes) {
-    LoggedPages logged{page_bytes, {}};
+    LoggedPages logged{.page_bytes = page_bytes};
     const std::optional<LogHead> head = head_of(log, page_bytes);
     if (!head) return logged;
     logged.page_bytes = head->page_bytes;
     std::size_t committed = 0;
+    bool lacks_frame = false;
     for (std::uint64_t at = kLogHeadBytes;; at += kFrameHeadBytes + head->page_bytes) {
         const auto frame = bytes_at(log, at, kFrameHeadBytes);
         if (frame.size() < kFrameHeadBytes) break;
-        if (!head->owns(frame)) continue;
+        if (!head->owns(frame)) {
+            lacks_frame = true;
+            continue;
+        }
         const auto page = static_cast<std::uint32_t>(big_endian(std::span(frame).first(4)));
         logged.places.emplace_back(page, at + kFrameHeadBytes);
-        if (ends_a_transaction(frame)) committed = logged.places.size();
+        if (!ends_a_transaction(frame)) continue;
+        committed = logged.places.size();
+        logged.lacks_frames = lacks_frame;
     }
     logged.places.resize(committed);
     return logged;

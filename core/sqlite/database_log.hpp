@@ -30,6 +30,7 @@ namespace dibhr {
 /// The committed pages of a log.
 struct LoggedPages {
     std::size_t page_bytes{0};
+    bool lacks_frames{false};  ///< some are damaged so that it is not known of which pages
     /// Number of a page and where in the log its bytes are, from old to new.
     std::vector<std::pair<std::uint32_t, std::uint64_t>> places{};
 };

@@ -8,8 +8,6 @@
 #include <string_view>
 #include <utility>
 
-#include "core/sqlite/database_log.hpp"
-
 namespace dibhr {
 
 namespace {
@@ -220,6 +218,12 @@ DatabasePages::DatabasePages(const std::filesystem::path& file, bool with_log,
         if (is_page_size(size == 1 ? 65536 : size)) page_bytes_ = size == 1 ? 65536 : size;
         promised = big_endian(std::span(head).subspan(28, 4));
     }
+    LoggedPages logged{.page_bytes = page_bytes_};
+    if (with_log) {
+        log_.open(file.string() + "-wal", std::ios::binary);
+        logged = logged_pages(log_, page_bytes_);
+    }
+    page_bytes_ = logged.page_bytes;
     std::error_code failed;
     const std::uint64_t there = std::filesystem::file_size(file, failed);
     // A head that promises far more than there is has other numbers in that place.
@@ -227,17 +231,21 @@ DatabasePages::DatabasePages(const std::filesystem::path& file, bool with_log,
     if (!failed) count_ = static_cast<std::uint32_t>(std::min(there / page_bytes_, most));
     if (promised > count_ && promised / 64 <= std::max<std::uint32_t>(count_, 1024))
         count_ = static_cast<std::uint32_t>(promised);
-    if (with_log) read_log(file.string() + "-wal");
+    keep(logged);
     // Of a sound file no page is read more than a few times.
     constexpr std::size_t kTimes = 8;
     rest_left_ = kTimes * page_bytes_ * (std::size_t{count_} + logged_.size());
 }
 
-void DatabasePages::read_log(const std::filesystem::path& log) {
-    log_.open(log, std::ios::binary);
-    const LoggedPages logged = logged_pages(log_, page_bytes_);
-    page_bytes_ = logged.page_bytes;
+void DatabasePages::keep(const LoggedPages& logged) {
+    lacks_frames_ = logged.lacks_frames;
+    // Every page behind the file's end has a frame.
+    const std::uint64_t most = std::uint64_t{count_} + logged.places.size();
     for (const auto& [page, place] : logged.places) {
+        if (page == 0 || page > most) {
+            lacks_frames_ = true;
+            continue;
+        }
         logged_[page].push_back(place);
         count_ = std::max(count_, page);
     }
@@ -258,7 +266,10 @@ std::optional<StoredPage> DatabasePages::page(std::uint32_t number) {
     Bytes bytes;
     for (std::size_t version = 0; read(number, version, bytes); ++version) {
         if (bytes.size() < page_bytes_) continue;
-        if (auto page = Parser(*this, bytes, number == 1).page()) return page;
+        auto page = Parser(*this, bytes, number == 1).page();
+        if (!page) continue;
+        page->older = version > 0;
+        return page;
     }
     return std::nullopt;
 }

@@ -13,6 +13,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/sqlite/database_log.hpp"
+
 namespace dibhr {
 
 /// Bytes of a row that are no text.
@@ -31,6 +33,7 @@ struct StoredRow {
 /// blocks cover it without overlap, rows are in order, and each is as long as its values.
 struct StoredPage {
     bool index{false};                      ///< of an index, or of a table WITHOUT ROWID
+    bool older{false};                      ///< newer versions are damaged: rows may be missing
     std::vector<std::uint32_t> children{};  ///< none: a leaf
     std::vector<StoredRow> rows{};          ///< of a table: in leaves only
 };
@@ -46,6 +49,8 @@ class DatabasePages {
 
     /// Also of those that the file lacks, as it was cut.
     [[nodiscard]] std::uint32_t count() const noexcept { return count_; }
+    /// Whether versions are lost of which the pages are not known.
+    [[nodiscard]] bool lacks_frames() const noexcept { return lacks_frames_; }
     /// Nothing: it is damaged, missing, or of no tree.
     [[nodiscard]] std::optional<StoredPage> page(std::uint32_t number);
     /// A number of the head, by its place; nothing: the head cannot be read.
@@ -55,7 +60,8 @@ class DatabasePages {
     using Bytes = std::vector<std::uint8_t>;
     class Parser;
 
-    void read_log(const std::filesystem::path& log);
+    /// Keeps where the log has pages, also those behind the file's end.
+    void keep(const LoggedPages& logged);
     /// The bytes of its versions, the newest first; false: there are no more.
     [[nodiscard]] bool read(std::uint32_t number, std::size_t version, Bytes& bytes);
     /// The rest of a long row, from that page on; false: it is not there.
@@ -64,6 +70,7 @@ class DatabasePages {
     std::size_t page_bytes_, longest_bytes_;
     std::ifstream file_, log_{};
     std::uint32_t count_{0};
+    bool lacks_frames_{false};
     std::size_t rest_left_{0};  ///< bytes of long rows that may yet be read
     /// Where the log has versions of a page, from old to new.
     std::map<std::uint32_t, std::vector<std::uint64_t>> logged_{};

@@ -224,7 +224,7 @@ Browsing::Read Browsing::read_preview(const FolderEntry& entry, const Stop& stop
     Read read{.file = entry.file};
     try {
         if (entry.kind == FileKind::session) {
-            read.text = text_of(Session(entry.file));
+            read.text = text_of(Session(entry.file, IfDamaged::refuse));
             return read;
         }
         if (entry.kind == FileKind::other) return read;
@@ -238,6 +238,8 @@ Browsing::Read Browsing::read_preview(const FolderEntry& entry, const Stop& stop
         read.depth = depth_preview(std::move(first->depth));
         if (!first->colour.rgb.empty())
             read.colour = std::make_shared<const ColourImage>(std::move(first->colour));
+    } catch (const DamagedSession&) {  // what can be read of it takes its time
+        read.text = "Damaged.";
     } catch (const std::exception&) {  // the reason is shown when it is opened
         if (entry.kind != FileKind::folder) read.text = "No depth was found for it.";
     }

@@ -498,6 +498,7 @@ TEST_CASE("what can be read of a damaged session is, by every command, and one l
             CHECK(is_one_line(result.errors));
             CHECK(contains(result.errors, word));
             CHECK(contains(result.errors, " of 2000 ticks cannot be read ("));
+            CHECK(contains(result.errors, "from "));  // behind "the first ..." where these are torn
         }
         CHECK(read_text(folder / "mine.dibhr") == bytes);
         // Until the first tick that is lost, the bits are the same.

@@ -1,6 +1,9 @@
 // An archive is whole or not there, says what the sessions say, and nothing of the computer.
 #include "core/archive/archive.hpp"
 
+#include <sys/resource.h>
+
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -323,6 +326,30 @@ TEST_CASE("of a damaged session is archived what can be read, and what is missin
     REQUIRE(read.size() > 1000);
     REQUIRE(read.size() < all.size());
     for (std::size_t k = 0; k < read.size(); ++k) REQUIRE(same_record(read[k], all[k]));
+}
+
+TEST_CASE("a disk too full for what can be read of a damaged session is said of the archive",
+          "[archive]") {
+    const Recordings recordings;
+    const fs::path cut =
+        recordings.session("cut.dibhr", "P1", 3000, recordings.video("hill.png", "hill"));
+    fs::resize_file(cut, fs::file_size(cut) * 3 / 4);
+    rlimit before{};
+    REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
+    const auto handled = std::signal(SIGXFSZ, SIG_IGN);
+    rlimit small = before;
+    small.rlim_cur = 65536;
+    ::setrlimit(RLIMIT_FSIZE, &small);
+    std::string said;
+    try {
+        static_cast<void>(write_archive(recordings.request({cut})));
+    } catch (const InputError& error) {
+        said = error.what();
+    }
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handled);
+    CHECK(said.starts_with(recordings.archive.string() + ": "));
+    CHECK(contains(said, "make room"));
 }
 
 TEST_CASE("sessions of every schema are archived", "[archive]") {

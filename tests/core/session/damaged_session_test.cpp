@@ -62,6 +62,22 @@ void record_surface(const std::filesystem::path& file, int ticks) {
     record(recorder, *ring, surface, ticks);
 }
 
+/// A copy of a session and its log before its recording ended, and of the whole one beside it.
+std::filesystem::path copy_unfinished(const SessionFolder& folder, int ticks, bool felt) {
+    MovingSurface surface;
+    FeltMovingSurface images(surface);
+    const auto ring = std::make_unique<TickRing>();
+    Recorder recorder(folder.file(), *ring, facts(), nullptr, std::chrono::steady_clock::now,
+                      {felt ? &images : nullptr});
+    record(recorder, *ring, surface, ticks);
+    REQUIRE(eventually([&] { return std::cmp_equal(recorder.status().rows, ticks); }));
+    const auto copied = folder / "copied.dibhr";
+    std::filesystem::copy_file(folder.file(), copied);
+    std::filesystem::copy_file(folder.file().string() + "-wal", copied.string() + "-wal");
+    recorder.finish();
+    return copied;
+}
+
 using Cells = std::vector<std::optional<std::string>>;
 /// The rows of the view, by their ticks, each value with all its bits.
 using Ticks = std::map<std::int64_t, Cells>;
@@ -285,38 +301,39 @@ TEST_CASE("more than two seconds behind a torn page in the log of a broken recor
     constexpr int kUnflushed = 2000;
     constexpr int kOfPages = 100;  // in the torn ones
     const SessionFolder folder;
-    MovingSurface surface;
-    const auto ring = std::make_unique<TickRing>();
-    Recorder recorder(folder.file(), *ring, facts());
-    record(recorder, *ring, surface, kTicks);
-    REQUIRE(eventually([&] { return recorder.status().rows == kTicks; }));
-    const auto copied = folder / "copied.dibhr";
+    const bool felt = GENERATE(false, true);
+    const auto copied = copy_unfinished(folder, kTicks, felt);
     const auto log = std::filesystem::path(copied.string() + "-wal");
-    std::filesystem::copy_file(folder.file(), copied);
-    std::filesystem::copy_file(folder.file().string() + "-wal", log);
-    recorder.finish();
+    const Session recorded(folder.file());
+    SurfaceReader surface(recorded.reader());
     const Ticks all = [&] { return ticks_of(Session(copied).reader()); }();
     REQUIRE(all.size() == kTicks);
     const std::string whole = read_text(log);
     std::mt19937 random(7);
     for (int k = 0; k < 30; ++k) {
         std::string bytes = whole;
-        const std::size_t at = std::uniform_int_distribution<std::size_t>(0, whole.size())(random);
+        // Without its last page nothing is left of the last transaction, which may be the only one.
+        const std::size_t at =
+            std::uniform_int_distribution<std::size_t>(0, whole.size() - 2 * kPage)(random);
         if (k % 3 == 0)
             bytes.resize(at);
         else
             for (std::size_t n = at; n < std::min(at + 512, bytes.size()); ++n)
                 bytes[n] = static_cast<char>(random());
         write(log, bytes);
-        CAPTURE(k, at);
+        CAPTURE(k, at, felt);
         try {
             Session session(copied);
             session.rescue_if_damaged();
             const Ticks ticks = ticks_of(session.reader());
             REQUIRE(is_part_of(ticks, all));
-            // The rest is lost with the log's end only.
-            if (k % 3 != 0 && at + 3 * kPage < whole.size())
-                REQUIRE(ticks.size() > kTicks - kUnflushed - kOfPages);
+            if (session.is_damaged() && ticks.size() < all.size())
+                REQUIRE(contains(session.warning(), "cannot be read"));
+            SurfaceReader part(session.reader());
+            REQUIRE(is_part_of(part, surface));
+            replay(session);
+            // Behind a cut nothing is left.
+            if (k % 3 != 0) REQUIRE(ticks.size() > kTicks - kUnflushed - kOfPages);
         } catch (const InputError& error) {
             require_one_line(error.what(), copied);
         }
@@ -326,4 +343,105 @@ TEST_CASE("more than two seconds behind a torn page in the log of a broken recor
     session.rescue_if_damaged();
     CHECK_FALSE(session.is_damaged());
     CHECK(session.rows() == kTicks);
+}
+
+TEST_CASE("a frame of the log with the number of a page that cannot be costs that page only",
+          "[session]") {
+    constexpr int kTicks = 5000;
+    constexpr std::size_t kFrame = kPage + 24;
+    const SessionFolder folder;
+    const auto copied = copy_unfinished(folder, kTicks, false);
+    const auto log = std::filesystem::path(copied.string() + "-wal");
+    const Ticks all = [&] { return ticks_of(Session(copied).reader()); }();
+    std::string bytes = read_text(log);
+    const std::size_t frame = 32 + (bytes.size() / kFrame / 4) * kFrame;
+    bytes[frame] = static_cast<char>(bytes[frame] ^ 0x80);
+    write(log, bytes);
+    Session session(copied);
+    session.rescue_if_damaged();
+    REQUIRE(session.is_damaged());
+    const Ticks ticks = ticks_of(session.reader());
+    CHECK(is_part_of(ticks, all));
+    CHECK(ticks.size() + 200 > all.size());
+}
+
+TEST_CASE("where an older version of a page is taken its ticks are found or said to be lost",
+          "[session]") {
+    constexpr std::size_t kFrame = kPage + 24;
+    const SessionFolder folder;
+    const auto copied = copy_unfinished(folder, 5000, false);
+    const auto log = std::filesystem::path(copied.string() + "-wal");
+    const Ticks all = [&] { return ticks_of(Session(copied).reader()); }();
+    const std::string root =
+        answer(folder.file(), "SELECT rootpage FROM sqlite_master WHERE name = 'tick_data'");
+    std::string bytes = read_text(log);
+    for (std::size_t frame = 32; frame + kFrame <= bytes.size(); frame += kFrame)
+        if (static_cast<unsigned char>(bytes[frame + 3]) == std::stoul(root) &&
+            bytes[frame + 2] == 0)
+            bytes.replace(frame + 24, kPage, kPage, 'x');
+    write(log, bytes);
+    Session session(copied);
+    session.rescue_if_damaged();
+    REQUIRE(session.is_damaged());
+    CHECK(ticks_of(session.reader()) == all);
+    CHECK(contains(session.warning(), "cannot be read (from "));
+}
+
+TEST_CASE("a table whose statement is damaged is read by this schema's and no query is run",
+          "[session]") {
+    const SessionFolder folder;
+    record_surface(folder.file(), 500);
+    const std::string sql =
+        GENERATE(as<std::string>{}, "CREATE TABLE mark(id INTEGER PRIMARY KEX, ",
+                 "CREATE TABLE mark AS SELECT 1 AS id, 2 AS t", "CREATE VIEW m");
+    REQUIRE(change(folder.file(), "PRAGMA writable_schema = ON; UPDATE sqlite_master SET sql = '" +
+                                      sql + "' WHERE name = 'mark'"));
+    Session session(folder.file());
+    session.rescue_if_damaged();
+    REQUIRE(session.is_damaged());
+    CHECK(session.rows() == 500);
+    CHECK(session.marks().size() == 2);
+    CHECK(contains(session.warning(), "not all can be read of its marks"));
+}
+
+TEST_CASE("of a damaged session numbers that no recording reaches are refused in one line",
+          "[session]") {
+    const SessionFolder folder;
+    record_surface(folder.file(), 500);
+    const std::size_t page = pages_of(folder.file(), "mark", "leaf").at(0);
+    REQUIRE(change(folder.file(),
+                   "UPDATE tick_data SET tick = 9223372036854775807 WHERE tick = 9;"
+                   "UPDATE tick_data SET tick = -9223372036854775807 WHERE tick = 8;"
+                   "UPDATE clock SET dropped = 9223372036854775807"));
+    write(folder.file(), without_pages(read_text(folder.file()), page, 1));
+    try {
+        Session session(folder.file());
+        session.rescue_if_damaged();
+        FAIL("nothing is refused");
+    } catch (const InputError& error) {
+        require_one_line(error.what(), folder.file());
+    }
+}
+
+TEST_CASE("a large file that is no database is refused by its begin", "[session]") {
+    const SessionFolder folder;
+    write(folder.file(), "no database");
+    std::filesystem::resize_file(folder.file(), std::uintmax_t{1} << 38U);
+    try {
+        const Session session(folder.file());
+        FAIL("it is not refused");
+    } catch (const InputError& error) {
+        CHECK(contains(error.what(), "no SQLite file"));
+    }
+}
+
+TEST_CASE("a damaged session is refused where it is not to be rescued", "[session]") {
+    const SessionFolder folder;
+    record_surface(folder.file(), 500);
+    CHECK(Session(folder.file(), IfDamaged::refuse).rows() == 500);
+    const std::string whole = read_text(folder.file());
+    const std::string damaged = GENERATE_COPY(
+        whole.substr(0, whole.size() / 2), without_pages(whole, 0, 1), without_pages(whole, 1, 3));
+    write(folder.file(), damaged);
+    CHECK_THROWS_AS(Session(folder.file(), IfDamaged::refuse), DamagedSession);
 }
