@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <ranges>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -204,8 +203,8 @@ class Rescue {
             const bool read = page && visit(*page);
             complete = complete && read && !page->older;
             if (!read) continue;
-            for (const std::uint32_t child : page->children | std::views::reverse)
-                complete = add(child) && complete;
+            for (auto child = page->children.rbegin(); child != page->children.rend(); ++child)
+                complete = add(*child) && complete;
         }
         if (!complete) rescued_.incomplete.insert(tree.name);
     }
