@@ -256,7 +256,7 @@ constexpr std::array kSteps{
     Step{{"force", "Force on a kitchen scale",
           "FORCE, downwards in four steps up to the arm's greatest, never above 4 N, at most 3 s "
           "each: the grip presses on a kitchen scale, and you type the grams. Put the scale under "
-          "the grip, on something that does not give way, and set it to zero; hands and hair away. "
+          "the grip, on something rigid, and set it to zero; hands and hair away. "
           "Any key ends the force.",
           StepNeeds::person_for_force},
          check_force},

@@ -13,8 +13,8 @@ std::string visible_part(const char* label) {
     return {label, ImGui::FindRenderedTextEnd(label)};
 }
 
-/// Told after the item has acted: with its new value.
-void tell(const char* label, const char* kind, const char* value = "") {
+/// After the item has acted: with its new value.
+void describe(const char* label, const char* kind, const char* value = "") {
     reach(ItemKeys::press, [&] { return ItemWords{visible_part(label), kind, value}; });
 }
 
@@ -37,25 +37,25 @@ KeyboardFocus::Steps steps() {
 
 bool button(const char* label, ImVec2 size) {
     const bool pressed = ImGui::Button(label, size);
-    tell(label, "button");
+    describe(label, "button");
     return pressed;
 }
 
 bool small_button(const char* label) {
     const bool pressed = ImGui::SmallButton(label);
-    tell(label, "button");
+    describe(label, "button");
     return pressed;
 }
 
 bool checkbox(const char* label, bool* value) {
     const bool changed = ImGui::Checkbox(label, value);
-    tell(label, "check box", *value ? "on" : "off");
+    describe(label, "check box", *value ? "on" : "off");
     return changed;
 }
 
 bool radio_button(const char* label, int* chosen, int which) {
     const bool changed = ImGui::RadioButton(label, chosen, which);
-    tell(label, "choice", *chosen == which ? "chosen" : "");
+    describe(label, "choice", *chosen == which ? "chosen" : "");
     return changed;
 }
 
@@ -83,7 +83,7 @@ bool list_box(const char* id, const std::string& label, std::span<const char* co
     const char* const shown = names[static_cast<std::size_t>(chosen)];
     KeyboardFocus* const focus = KeyboardFocus::current();
     if (focus != nullptr && focus->add(ItemKeys::press, ImGui::GetID(id), low, high))
-        focus->tell({label, "list", shown});
+        focus->describe({label, "list", shown});
     if (!ImGui::BeginCombo(id, shown)) return false;
     const int before = chosen;
     for (int k = 0; k < static_cast<int>(names.size()); ++k) {

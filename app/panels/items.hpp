@@ -1,4 +1,4 @@
-// ImGui's items as the keyboard reaches them: each tells what it is, for those who do not see it.
+// ImGui's items as the keyboard reaches them: each has its words, for those who do not see it.
 #pragma once
 
 #include <imgui.h>
@@ -16,7 +16,7 @@ template <typename Words>
 bool reach(ItemKeys keys, const Words& words, bool preferred = false) {
     KeyboardFocus* const focus = KeyboardFocus::current();
     if (focus == nullptr || !focus->add(keys, preferred)) return false;
-    focus->tell(words());
+    focus->describe(words());
     return true;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "app/panels/panels.hpp"
 #include "app/viewer/files.hpp"
@@ -51,7 +52,8 @@ OpeningWindow::OpeningWindow(const ViewOptions& options, Time begin)
       keys_(options.settings.keys) {}
 
 bool OpeningWindow::wait() {
-    const WindowInput input = window_.take_input();
+    WindowInput input = window_.take_input();
+    window_.return_dropped(std::move(input.dropped));  // to the viewer, which opens them
     const bool closed = window_.close_requested() || quits(input, keys_);
     if (closed && !options_.kiosk) return false;
     if (Time::clock::now() - begin_ < kUnnoticedOpening) return true;

@@ -25,7 +25,7 @@ using std::chrono::steady_clock;
 constexpr double kNoticeTime_s = 4.0;
 /// After input that changed nothing visible: the pointer may move a thousand times a second.
 constexpr std::chrono::milliseconds kAfterInput{8};
-/// From picture to picture where drawing gives way to frames, while a person moves something.
+/// From picture to picture while late frames limit drawing and a person moves something.
 constexpr std::chrono::milliseconds kInUse{50};
 /// Timeout for the hashes of large files at an end by a signal or a lost display.
 constexpr auto kPatienceAtAnEnd = std::chrono::milliseconds(200);
@@ -275,7 +275,7 @@ bool Viewer::video_runs() const {
     return !state_.touch.replay && !state_.media.still && state_.media.playback.playing;
 }
 
-/// Where drawing gives way to frames of the video; 0: nowhere.
+/// While frames of the video are late; 0: no limit.
 double Viewer::most_pictures_per_s() const {
     return video_runs() ? state_.media.playback.most_pictures_per_s : 0.0;
 }

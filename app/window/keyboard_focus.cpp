@@ -71,7 +71,7 @@ bool KeyboardFocus::take(const KeyPress& press, bool typing) {
 
 void KeyboardFocus::begin() {
     items_.clear();
-    told_ = {};
+    described_ = {};
     const ImGuiIO& io = ImGui::GetIO();
     if (on_ && std::any_of(std::begin(io.MouseClicked), std::end(io.MouseClicked),
                            [](bool clicked) { return clicked; }))
@@ -92,15 +92,15 @@ bool KeyboardFocus::add(ItemKeys keys, ImGuiID id, ImVec2 low, ImVec2 high, bool
     return has(id);
 }
 
-void KeyboardFocus::tell(ItemWords words) {
-    told_ = std::move(words);
+void KeyboardFocus::describe(ItemWords words) {
+    described_ = std::move(words);
 }
 
 void KeyboardFocus::end(float scale) {
     steps_ = {};
     if (!on_) return;
     moved_ = false;
-    words_ = told_;
+    words_ = described_;
     go_to_new_area();
     follow_typing();
     find_again();

@@ -32,10 +32,10 @@ struct ItemWords {
     bool operator==(const ItemWords&) const = default;
 };
 
-/// Moves the keyboard from item to item: the panels tell it their items in each picture. It is off
-/// until a person asks for it; then Tab, arrows, Home and End move, and Esc gives the keyboard
-/// back. ImGui's own navigation stays off: it would take the arrow keys at all times, and skips
-/// what is scrolled out of view.
+/// Moves the keyboard from item to item: the panels add their items in each picture. It is off
+/// until go_to_area(); then Tab, arrows, Home and End move, and leave() returns the keyboard to
+/// the picture. ImGui's own navigation stays off: it would take the arrow keys at all times, and
+/// skips what is scrolled out of view.
 class KeyboardFocus {
   public:
     /// The steps of the arrow keys that the item with the keyboard takes in this picture.
@@ -71,7 +71,7 @@ class KeyboardFocus {
     /// more.
     bool add(ItemKeys keys, ImGuiID id, ImVec2 low, ImVec2 high, bool preferred = false);
     [[nodiscard]] bool has(ImGuiID id) const { return on_ && id != 0 && id == id_; }
-    void tell(ItemWords words);
+    void describe(ItemWords words);
     [[nodiscard]] const Steps& steps() const { return steps_; }
     /// Carries out the keys and draws the frame around the item. `scale`: pixels of a layout pixel.
     void end(float scale);
@@ -106,7 +106,7 @@ class KeyboardFocus {
     void draw_frame(float scale) const;
 
     bool on_{false};
-    bool moved_{false};           // the next picture tells the words
+    bool moved_{false};           // the next picture describes the item
     ImGuiID id_{0};               // of the item that has the keyboard; 0: none yet
     std::size_t at_{0};           // its index in `items_`
     ImGuiWindow* area_{nullptr};  // its window
@@ -115,7 +115,7 @@ class KeyboardFocus {
     std::vector<Item> items_{};
     std::vector<ImGuiWindow*> seen_{};  // areas of the last picture
     std::vector<Place> back_{};
-    ItemWords words_{}, told_{};
+    ItemWords words_{}, described_{};
     int area_moves_{0};
 };
 

@@ -230,6 +230,10 @@ WindowInput Window::take_input() {
     return std::exchange(pending_.input, {});
 }
 
+void Window::return_dropped(std::vector<std::filesystem::path> files) {
+    pending_.input.dropped = std::move(files);
+}
+
 std::optional<std::vector<PointerClick>> Window::take_pointer() {
     pending_.times.collect();
     glfwPollEvents();

@@ -104,6 +104,8 @@ class Window {
 
     /// Polls for events; does not wait.
     WindowInput take_input();
+    /// The next take_input() has these dropped files again.
+    void return_dropped(std::vector<std::filesystem::path> files);
     /// Polls for events and returns the clicks, where the pointer has moved or clicked since the
     /// last call. All other input waits for take_input().
     std::optional<std::vector<PointerClick>> take_pointer();

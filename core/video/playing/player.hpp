@@ -79,7 +79,7 @@ class Player final : public Transport {
     void set_cleaning(const CleaningOptions& options);
     /// What is computed between frames; likewise.
     void set_motion(const MotionRequest& wanted);
-    /// What the window takes for drawing, which may have to give way to frames; any time.
+    /// What the window takes for drawing, which is limited while frames are late; any time.
     void set_drawing_cost(const DrawingCost& drawing);
     /// Puts them on the media given last; null: none.
     void set_maps(std::shared_ptr<const TouchMaps> maps);
