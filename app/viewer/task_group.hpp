@@ -80,7 +80,7 @@ class BackgroundTask {
         std::future<Result> result = task.get_future();
         std::thread([task = std::move(task), end = tasks_.add_thread()]() mutable {
             end.set_value_at_thread_exit();
-            task.make_ready_at_thread_exit();
+            task();
         }).detach();
         result_ = std::move(result);
     }

@@ -11,7 +11,8 @@
 // joined with GLib's atomics. Mesa's software driver counts who still needs a fence with atomics,
 // and destroys it when nobody does; it is swrast_dri.so, or in newer ones libgallium. Pango matches
 // fonts on a thread of its own and keeps Fontconfig's results until the program ends. libsrt
-// destroys what its queues still read when a connection is closed.
+// destroys what its queues still read when a connection is closed. The dynamic linker guards its
+// lists of libraries by a lock of its own while two threads load some.
 extern "C" const char* __tsan_default_suppressions();  // NOLINT: the sanitizer's name
 extern "C" const char* __lsan_default_suppressions();  // NOLINT: the sanitizer's name
 
@@ -32,7 +33,8 @@ extern "C" const char* __tsan_default_suppressions() {  // NOLINT
            "race:libgallium\n"
            "race:libpangoft2-1.0.so.0\n"
            "race:libfontconfig.so.1\n"
-           "race:libsrt\n";
+           "race:libsrt\n"
+           "race:ld-linux\n";
 }
 
 extern "C" const char* __lsan_default_suppressions() {  // NOLINT
