@@ -23,12 +23,14 @@ float panel_column_width(const ViewerState& state) {
 void draw_panel_column(ViewerState& state, Transport& transport) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float width = panel_column_width(state);
+    fill_under_panels({display.x - width, 0.0F}, {display.x, display.y});
     ImGui::SetNextWindowPos({display.x - width, 0.0F});
     ImGui::SetNextWindowSize({width, display.y});
     ImGui::Begin("Panels", nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                     ImGuiWindowFlags_NoBackground);
     if (state.touch.replay) {
         draw_replay_panel(state, transport);
         draw_touch_panel(state);

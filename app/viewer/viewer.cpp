@@ -280,6 +280,12 @@ double Viewer::most_pictures_per_s() const {
     return video_runs() ? state_.media.playback.most_pictures_per_s : 0.0;
 }
 
+/// Whether the next frame replaces a picture before anybody sees its last detail, which takes the
+/// processor twice as long where it draws. The picture that stays has it.
+bool Viewer::pictures_pass() const {
+    return video_runs() && (software_ || most_pictures_per_s() > 0.0);
+}
+
 void Viewer::poll() {
     poll_touch();
     state_.ui.cost = pace_.cost();

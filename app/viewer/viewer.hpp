@@ -231,6 +231,7 @@ class Viewer {
     [[nodiscard]] bool wants_picture(PictureOf of) const;
     [[nodiscard]] bool video_runs() const;
     [[nodiscard]] double most_pictures_per_s() const;
+    [[nodiscard]] bool pictures_pass() const;
     void deliver_picture(PictureOf of, ColourImage picture);
     void beat();
     void finish();

@@ -100,9 +100,8 @@ bool Viewer::draw_if_changed(const WindowInput& input) {
     const glm::ivec2 viewport = relief_viewport();
     const Camera camera = camera_;  // the panels may move it for the next picture
     SceneContent content = prepare_scene();
-    // A clip keeps its detail.
-    const bool gives_way = most_pictures_per_s() > 0.0 && !clip_.active();
-    content.relief_style.coarse = content.relief_style.coarse || gives_way;
+    const bool saved = wanted || clip_.active();
+    content.relief_style.coarse = content.relief_style.coarse || (!saved && pictures_pass());
     const SceneMark scene = mark_scene(content, viewport);
     const PanelChanges panels{input.any, gui_.in_use(), video_runs()};
     if (change_.waits(most_pictures_per_s(), panels, now) && !wanted) return false;

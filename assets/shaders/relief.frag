@@ -23,8 +23,7 @@ uniform sampler2D unseen;  // 1: no surface was ever seen, as fine as can be
 
 uniform sampler2D colour;  // BY_DEPTH: one row, from far to near
 #ifdef TEXTURED
-uniform vec3 colour_across;  // the place in the texture of one in the picture, whose video may be turned
-uniform vec3 colour_down;
+in vec2 colour_place;  // in the texture
 #if TEXTURED > 1
 uniform sampler2D chroma;  // blue; with 2 also red
 uniform sampler2D red_chroma;
@@ -55,19 +54,17 @@ vec2 in_detail(ivec2 size) {
 
 #ifdef TEXTURED
 vec3 of_video() {
-    vec3 here = vec3(lifted.xy, 1.0);
-    vec2 place = vec2(dot(colour_across, here), dot(colour_down, here));
 #if TEXTURED > 1
-    vec2 beside = place * chroma_scale;
+    vec2 beside = colour_place * chroma_scale;
 #if TEXTURED == 2
     vec2 chromas = texture(chroma, beside).rg;
 #else
     vec2 chromas = vec2(texture(chroma, beside).r, texture(red_chroma, beside).r);
 #endif
-    vec4 samples = vec4(texture(colour, place).r, chromas, 1.0);
+    vec4 samples = vec4(texture(colour, colour_place).r, chromas, 1.0);
     return clamp(vec3(dot(red_of, samples), dot(green_of, samples), dot(blue_of, samples)), 0.0, 1.0);
 #else
-    return texture(colour, place).rgb;
+    return texture(colour, colour_place).rgb;
 #endif
 }
 #endif

@@ -31,6 +31,11 @@ uniform sampler2D cut_around;  // of each drawn vertex, which cells around it ar
                                // 4: lower left, 8: lower right
 #endif
 out vec3 lifted;  // normalised place in the picture, elevation
+#ifdef TEXTURED
+out vec2 colour_place;  // in the texture; here, as it takes software a fifth of its time for each pixel
+uniform vec3 colour_across;  // of one in the picture, whose video may be turned
+uniform vec3 colour_down;
+#endif
 #ifdef LOOK
 uniform vec2 finish;  // gloss, fuzz
 out float shine;  // white light on top of the colour
@@ -145,6 +150,10 @@ void main() {
 #endif
 #endif
     lifted = vec3((here + 0.5) / vec2(image), z);
+#ifdef TEXTURED
+    vec3 at_one = vec3(lifted.xy, 1.0);
+    colour_place = vec2(dot(colour_across, at_one), dot(colour_down, at_one));
+#endif
     vec3 world = vec3(here.x - 0.5 * float(image.x - 1), 0.5 * float(image.y - 1) - here.y, z);
     gl_Position = clip_from_world * vec4(world, 1.0);
 }

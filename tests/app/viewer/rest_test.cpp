@@ -1,7 +1,9 @@
 // A window in which nothing changes draws nothing; it is drawn again once something does.
 #include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,7 @@
 #include "tests/app/program/falcon_scene.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/eventually.hpp"
+#include "tests/support/text.hpp"
 
 using namespace dibhr::test;
 
@@ -18,20 +21,27 @@ namespace {
 constexpr std::uint64_t kTurns = 30;
 constexpr int kRate = 20;  ///< frames of the film in a second
 
-/// Ten seconds of film, opened in a small window.
+/// Ten seconds of film that moves, and of one that does not, as sources of ffmpeg.
+const std::string kMoving = "testsrc=s=64x48:r=" + std::to_string(kRate) + ":d=10";
+const std::string kStill = "testsrc=s=64x48:r=" + std::to_string(kRate) + ":d=0.05,loop=199:1";
+
+/// Film, opened in a small window.
 struct FilmWindow {
     const Desk desk{};
     const TemporaryFolder folder{};
     WindowProgram viewer;
 
-    explicit FilmWindow(const std::vector<std::string>& options) : viewer(start(options)) {
+    explicit FilmWindow(const std::vector<std::string>& options, const std::string& film = kMoving,
+                        const std::string& settings = {})
+        : viewer(start(options, film, settings)) {
         viewer.wait_for_surface();
     }
-    [[nodiscard]] WindowProgram start(const std::vector<std::string>& options) const {
-        run_shell(
-            folder,
-            "ffmpeg -nostdin -v error -f lavfi -i testsrc=s=64x48:r=" + std::to_string(kRate) +
-                ":d=10 -c:v ffv1 film_color.mkv -c:v ffv1 -pix_fmt gray film_depth.mkv");
+    [[nodiscard]] WindowProgram start(const std::vector<std::string>& options,
+                                      const std::string& film, const std::string& settings) const {
+        run_shell(folder, "ffmpeg -nostdin -v error -f lavfi -i " + film +
+                              " -c:v ffv1 film_color.mkv -c:v ffv1 -pix_fmt gray film_depth.mkv");
+        std::filesystem::create_directories(folder / "config/dibhr");
+        write_text(folder / "config/dibhr/settings.toml", settings);
         std::vector<std::string> arguments{"film_color.mkv", "--raw-depth", "--device",
                                            "mouse",          "--size",      "640x480"};
         arguments.insert(arguments.end(), options.begin(), options.end());
@@ -42,6 +52,17 @@ struct FilmWindow {
         run_shell("export DISPLAY=" + desk.display() + "; xdotool " + how +
                   " $(xdotool search --class dibhr | tail -1)");
     }
+    /// A part of the relief over which nothing is drawn, row by row.
+    [[nodiscard]] std::vector<std::string> relief() const {
+        constexpr std::size_t kLeft = 80, kRight = 320, kTop = 60, kBottom = 380, kColumns = 1280;
+        const std::string whole = desk.picture();
+        std::vector<std::string> rows;
+        for (std::size_t y = kTop; y < kBottom; ++y)
+            rows.push_back(whole.substr(3 * (y * kColumns + kLeft), 3 * (kRight - kLeft)));
+        return rows;
+    }
+    /// Its picture once nothing changes any more.
+    [[nodiscard]] std::vector<std::string> relief_at_rest() const;
     void quit() {
         // A window that was unmapped has the keyboard only where the pointer is.
         desk.press("mousemove 150 300 key q");
@@ -59,6 +80,11 @@ std::uint64_t pictures_in(const WindowProgram& viewer, std::uint64_t turns) {
 /// Until all that was done before has settled.
 void wait_for_rest(const WindowProgram& viewer, std::uint64_t turns = kTurns) {
     REQUIRE(eventually([&] { return pictures_in(viewer, turns) == 0; }, std::chrono::minutes(1)));
+}
+
+std::vector<std::string> FilmWindow::relief_at_rest() const {
+    wait_for_rest(viewer);
+    return relief();
 }
 
 /// A window at rest that is drawn when `act` is done, and then rests again.
@@ -125,6 +151,25 @@ TEST_CASE("software draws a video that runs once a frame", "[rest]") {
     const auto pictures = static_cast<double>(end.picture - begin.picture);
     CHECK(pictures < frames + kSettling);
     CHECK(pictures > frames / 4.0);  // a busy machine does not draw all
+    film.quit();
+}
+
+TEST_CASE("software draws a video that runs coarsely, and where it stops as if it had never run",
+          "[rest]") {
+    std::vector<std::string> coarse;
+    {
+        FilmWindow film({"--pause"}, kStill, "[look]\ncoarse = true\n");
+        coarse = film.relief_at_rest();
+        film.quit();
+    }
+    FilmWindow film({"--pause"}, kStill);
+    const std::vector<std::string> fine = film.relief_at_rest();
+    CHECK(fine != coarse);
+    film.desk.press("mousemove 10 10 key space");
+    CHECK(eventually([&] { return film.relief() == coarse; }));
+    film.desk.press("key space");
+    film.viewer.wait_until([](const Seen& now) { return !now.playing; });
+    CHECK(film.relief_at_rest() == fine);
     film.quit();
 }
 
