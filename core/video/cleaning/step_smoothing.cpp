@@ -27,7 +27,8 @@ struct Reach {
 constexpr std::array<Reach, 9> kReaches{
     {{1, 512}, {2, 512}, {4, 320}, {8, 192}, {16, 192}, {8, 192}, {4, 320}, {2, 512}, {1, 512}}};
 
-constexpr std::size_t kFarthest = 16;  ///< pixels
+constexpr std::size_t kFarthest = 16;    ///< pixels
+constexpr int kHalfOfNumbers = 1 << 15;  ///< of 16 bits
 /// Measured steps: a larger difference is an edge. A ledge of two steps is the thing's.
 constexpr int kEdgeOfMeasured = 192;  ///< [step / 128]
 /// A measured step below this part of the highest level is not felt (0.1 px of 255).
@@ -42,17 +43,15 @@ constexpr int kDelay = [] {
     return rows;
 }();
 
-/// Second difference of a pixel and its two neighbours; 0 across an edge.
-std::int16_t second_difference(std::uint16_t before, std::uint16_t centre, std::uint16_t after,
-                               std::uint16_t edge) {
-    const auto back = static_cast<std::int16_t>(before - centre);
-    const auto on = static_cast<std::int16_t>(after - centre);
-    // As unsigned numbers, [-edge, edge] becomes [0, 2 edge], and all else is above.
-    const auto back_above = static_cast<std::uint16_t>(back + edge);
-    const auto on_above = static_cast<std::uint16_t>(on + edge);
-    const auto sum = static_cast<std::int16_t>(back + on);
-    return std::max(back_above, on_above) <= static_cast<std::uint16_t>(2 * edge) ? sum
-                                                                                  : std::int16_t{0};
+/// Second difference of a pixel and its two neighbours; 0 where one of them is across an edge.
+/// `base`: the pixel less the edge and half of all numbers, so that the differences from it to
+/// [-edge, edge] are the lowest numbers with a sign, up to `most`. All is counted modulo 2^16.
+std::int16_t second_difference(std::uint16_t before, std::uint16_t base, std::uint16_t after,
+                               std::int16_t most, std::uint16_t twice_edge) {
+    const auto back = static_cast<std::int16_t>(before - base);
+    const auto on = static_cast<std::int16_t>(after - base);
+    const auto sum = static_cast<std::int16_t>(back + on - twice_edge);
+    return std::max(back, on) > most ? std::int16_t{0} : sum;
 }
 
 /// 13/64 of the difference, rounded: stable below 1/4. Computed so that all fits into 16 bits.
@@ -67,25 +66,29 @@ std::int16_t smoothing(std::int16_t difference) {
 constexpr std::size_t kTogether = 32;
 
 /// Smooths one row. `up`, `down`: the rows at the reach; `limits`: the largest difference along the
-/// row at each pixel. Pixels stay within `half` a step of `given`, and the back wall stays. No
-/// pixel leaves the range of its neighbours, so the range of levels needs no check.
+/// row at each pixel, the edge or 0. Pixels stay within `half` a step of `given`, and the back wall
+/// stays. No pixel leaves the range of its neighbours, so the range of levels needs no check.
 DIBHR_VECTOR_CLONES void smooth_row(const std::uint16_t* up, const std::uint16_t* row,
                                     const std::uint16_t* down, const std::uint16_t* given,
-                                    const std::uint16_t* limits, Reach reach, std::uint16_t half,
+                                    const std::uint16_t* limits, Reach reach, std::int16_t half,
                                     std::uint16_t* __restrict out, std::size_t columns) {
-    const auto edge = static_cast<std::uint16_t>(reach.edge);
+    const auto below = static_cast<std::uint16_t>(reach.edge + kHalfOfNumbers);
+    const auto twice = static_cast<std::uint16_t>(2 * reach.edge);
+    const auto most = static_cast<std::int16_t>(2 * reach.edge - kHalfOfNumbers);
     const std::uint16_t* const before = row - reach.px;
     const std::uint16_t* const after = row + reach.px;
     for (std::size_t begin = 0; begin < columns; begin += kTogether) {
         for (std::size_t i = begin; i < begin + kTogether; ++i) {
-            const auto difference = static_cast<std::int16_t>(
-                second_difference(up[i], row[i], down[i], edge) +
-                second_difference(before[i], row[i], after[i], limits[i]));
-            const std::uint16_t here = given[i];
-            const auto most = static_cast<std::int16_t>(here > 0 ? half : 0);
-            const auto least = static_cast<std::int16_t>(-std::min(here, half));
-            const auto change = static_cast<std::int16_t>(row[i] + smoothing(difference) - here);
-            out[i] = static_cast<std::uint16_t>(here + std::min(std::max(change, least), most));
+            const auto base = static_cast<std::uint16_t>(row[i] - below);
+            const auto along = second_difference(before[i], base, after[i], most, twice);
+            const auto difference =
+                static_cast<std::int16_t>(second_difference(up[i], base, down[i], most, twice) +
+                                          (limits[i] == 0 ? std::int16_t{0} : along));
+            const auto here = static_cast<std::int16_t>(given[i]);
+            const auto least = static_cast<std::int16_t>(std::max(here, half) - half);
+            const auto highest = static_cast<std::int16_t>(here + (here > 0 ? half : 0));
+            const auto smoothed = static_cast<std::int16_t>(row[i] + smoothing(difference));
+            out[i] = static_cast<std::uint16_t>(std::min(std::max(smoothed, least), highest));
         }
     }
 }
@@ -222,7 +225,7 @@ void StepSmoother::set_size(std::size_t columns, int parts, int most_edge) {
 template <typename Count, typename Take>
 void StepSmoother::smooth_rows(DepthImage& image, const Count& count, const Take& take) {
     const auto levels = [&](int row) { return image.levels.data() + image.index(0, row); };
-    const auto half = static_cast<std::uint16_t>(parts_ / 2);
+    const auto half = static_cast<std::int16_t>(parts_ / 2);
     int counted = 0;
     for (int tick = 0; tick < image.rows + kDelay; ++tick) {
         int j = tick + kReaches.front().px;

@@ -2,11 +2,13 @@
 #include "core/video/depth/depth_scale.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <utility>
 
 #include "core/video/depth/picture_levels.hpp"
@@ -20,11 +22,44 @@ constexpr double kFineSteps = 65535.0;  ///< highest level if the source has no 
 /// A span of fewer millimetres would be taken for the steps of an 8-bit image.
 constexpr double kLeastMillimetres = 256.0;
 constexpr int kMostTabled = 16;
+constexpr std::size_t kLevelsOfEightBits = 256;
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr float kNoData = std::numeric_limits<float>::quiet_NaN();
 
 double in_mm(DepthUnit unit, double distance) {
     return one_in_mm(unit) * distance;
+}
+
+/// A level of 8 bits to that of an image whose steps are the source's.
+struct LevelRamp {
+    float rise;  ///< 1 or -1
+    float at_0, lowest, highest;
+
+    [[nodiscard, gnu::always_inline]] float operator()(std::uint8_t level) const {
+        const float sum = at_0 + rise * static_cast<float>(level);
+        const float bounded = sum > lowest ? sum : lowest;
+        return bounded < highest ? bounded : highest;
+    }
+};
+
+std::uint32_t bits_of(float number) {
+    return std::bit_cast<std::uint32_t>(number);
+}
+
+/// The sums that give the table's very bits; nothing: there are none.
+std::optional<LevelRamp> ramp_of(const std::vector<float>& of_level) {
+    const auto [lowest, highest] = std::minmax_element(of_level.begin(), of_level.end());
+    for (std::size_t k = 1; k < of_level.size(); ++k) {
+        const float rise = of_level[k] - of_level[k - 1];
+        if (std::fabs(rise) != 1.0F) continue;
+        const LevelRamp ramp{rise, of_level[k] - rise * static_cast<float>(k), *lowest, *highest};
+        std::uint8_t level = 0;
+        const bool same = std::all_of(of_level.begin(), of_level.end(), [&](float of_table) {
+            return bits_of(ramp(level++)) == bits_of(of_table);
+        });
+        return same ? std::optional(ramp) : std::nullopt;
+    }
+    return std::nullopt;
 }
 
 template <typename Level>
@@ -36,6 +71,13 @@ void map_levels(const cv::Mat& grey, const std::vector<float>& of_level, std::ve
         for (int i = 0; i < grey.cols; ++i)
             out[k++] = of_level[std::min<std::size_t>(row[i], last)];
     }
+}
+
+/// Pixels from 8 bits by sums instead of the table, many at a time.
+DIBHR_VECTOR_CLONES void map_ramp(const std::uint8_t* __restrict row, const LevelRamp& of,
+                                  std::size_t count, float* __restrict out) {
+    const LevelRamp ramp = of;
+    for (std::size_t i = 0; i < count; ++i) out[i] = ramp(row[i]);
 }
 
 /// The mapping of a number to its level, where it is linear between two bounds.
@@ -108,7 +150,12 @@ DepthImage DepthScale::image_of(const cv::Mat& picture, DepthImage used) const {
     const cv::Mat grey = grey_of(picture);
     DepthImage depth{grey.cols, grey.rows, highest_, std::move(used.levels)};
     depth.levels.resize(grey.total());
-    if (grey.depth() == CV_8U && !of_level_.empty()) {
+    const bool eight_bits = grey.depth() == CV_8U && of_level_.size() == kLevelsOfEightBits;
+    if (const auto ramp = eight_bits ? ramp_of(of_level_) : std::nullopt) {
+        for (int j = 0; j < grey.rows; ++j)
+            map_ramp(grey.ptr<std::uint8_t>(j), *ramp, static_cast<std::size_t>(grey.cols),
+                     depth.levels.data() + depth.index(0, j));
+    } else if (grey.depth() == CV_8U && !of_level_.empty()) {
         map_levels<std::uint8_t>(grey, of_level_, depth.levels);
     } else if (grey.depth() == CV_16U && !of_level_.empty()) {
         map_levels<std::uint16_t>(grey, of_level_, depth.levels);

@@ -64,6 +64,19 @@ TEST_CASE("an image in the memory of another one has the same levels", "[scale]"
     }
 }
 
+TEST_CASE("a picture of 8 bits has the bits of each of its levels", "[scale]") {
+    const DepthRange range = GENERATE(DepthRange{255.0, 0.0}, DepthRange{251.0, 20.0},
+                                      DepthRange{20.0, 251.0}, DepthRange{200.5, 20.25});
+    const DepthUnit unit = GENERATE(DepthUnit::levels, DepthUnit::mm, DepthUnit::disparity);
+    DepthMeaning meaning = meaning_of(unit, range, GENERATE(1.0, 0.5));
+    if (GENERATE(false, true)) meaning.no_data.value = {0.0, 37.0};
+    CAPTURE(name_of(unit), range.near, range.far);
+    const DepthScale scale(meaning, 8);
+    const DepthImage image = scale.image_of(all_levels<std::uint8_t>());
+    for (int level = 0; level < image.columns; ++level)
+        CHECK(bits_of(image.at(level, 0)) == bits_of(scale(level)));
+}
+
 TEST_CASE("only integer levels that all mean something can have no holes", "[scale]") {
     const DepthRange bright{255.0, 0.0};
     DepthMeaning levels = meaning_of(DepthUnit::levels, bright);
