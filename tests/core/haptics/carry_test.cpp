@@ -107,6 +107,7 @@ class CarriedOnPlane {
     double radius_px_;
     Vec2 place_;
     MaterialPoint point_{};
+    PlaceBox read_{};
     bool slides_{false};
 };
 
