@@ -112,7 +112,7 @@ TEST_CASE("without the video a window shows the stored picture that is nearest i
         const auto grey = static_cast<std::uint8_t>(8 * number);  // of frames 0, 10 and 20
         Frame coloured = frame;
         coloured.colour = std::make_shared<ColourImage>(
-            ColourImage{8, 8, std::vector<std::uint8_t>(3 * 8 * 8, grey)});
+            ColourImage{8, 8, std::vector<std::uint8_t>(std::size_t{3} * 8 * 8, grey)});
         return preview_of(coloured);
     };
     (void)record(folder, surface, {.ticks = 1500, .picture = picture});
