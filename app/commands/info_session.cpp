@@ -14,6 +14,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/report/report_sentences.hpp"
+#include "core/session/surface_reader.hpp"
 #include "device/force_devices.hpp"
 
 namespace dibhr {
@@ -43,6 +44,10 @@ void print_extent(const Session& session) {
     if (const auto drift = session.drift())
         print_fact("wall clock gained", number_text(1e3 * drift->gained_s, 3) + " ms in " +
                                             number_text(drift->over_s, 1) + " s");
+    const auto preview = SurfaceReader(session.reader()).preview_extent();
+    if (preview.count > 0)
+        print_fact("preview", std::to_string(preview.count) + " colour pictures, " +
+                                  number_text(static_cast<double>(preview.bytes) / 1e6, 2) + " MB");
     for (const SessionMark& mark : session.marks()) {
         const auto utc_s = session.utc_at(mark.t_s);
         print_fact("mark", number_text(mark.t_s - session.begin_s(), 3) + " s  " + mark.tag +

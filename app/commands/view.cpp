@@ -256,6 +256,10 @@ void add_file_options(CLI::App& app, ViewOptions& options) {
         app, "--record-surface",
         "What a recording stores of the surface that is felt: around the hand, or whole frames",
         [&options](SurfaceRecording how) { options.record_surface = how; });
+    add_on_off_option(app, "--record-preview",
+                      "Stores with the surface a small colour picture of each second of the video",
+                      [&options](bool on) { options.record_preview = on; })
+        ->default_str("on");
     add_file(app, "--screenshot", options.screenshot, "Saves the last picture as PNG");
     add_file(app, "--clip", options.clip,
              "Saves what the window shows as MP4, from start to end; the program ends at --end, "

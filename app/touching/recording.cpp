@@ -148,7 +148,7 @@ void TouchRecording::start(const std::filesystem::path& file) {
     recorder_ =
         std::make_unique<Recorder>(file, ticks_, facts, &heart_, std::chrono::steady_clock::now,
                                    RecordedSurface{&felt_frames_, how});
-    felt_frames_.keep(how != SurfaceRecording::off);
+    felt_frames_.keep(how != SurfaceRecording::off, state_.touch.record_preview);
     crash_note_.set_recording(file);
     std::uint32_t number = 0;
     for (const KnownMedia& known : known_media_) record_media(++number, known);

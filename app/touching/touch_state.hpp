@@ -111,6 +111,7 @@ struct TouchState {
     Material material{};  ///< last choice; its values may have been changed since
     SessionFields session_fields{};
     SurfaceRecording record_surface{SurfaceRecording::tiles};  ///< of the next recording
+    bool record_preview{true};                                 ///< pictures beside the surface
 
     // Shown only.
     bool in_front{true};  ///< the window is; false: another window is in front

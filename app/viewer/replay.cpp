@@ -77,7 +77,7 @@ void ViewerReplay::begin(std::unique_ptr<OpenedSession> opened, const GivenParam
     chosen_.reset();
     if (!(wanted == recorded_)) chosen_ = wanted;
     state.settings.touch = wanted;
-    outline_ = std::make_unique<ContactBandReader>(session);
+    outline_ = std::make_unique<ContactBandReader>(*opened);
     player_ = std::make_unique<SessionPlayer>(std::move(opened));
     state.touch.replay->playback = player_->playback();  // for a key in this picture
     if (chosen_) player_->compute(chosen_);

@@ -79,6 +79,7 @@ Viewer::Viewer(const ViewOptions& options, OpeningWindow& opening, ViewerParts p
     window_.on_display_loss([this] { close_without_display(); });
     shutdown_.watch_display(display_connection());
     state_.touch.record_surface = options.record_surface;
+    state_.touch.record_preview = options.record_preview;
     state_.touch.bump = std::move(parts.bump);
     state_.touch.bump_file = std::move(parts.bump_file);
     state_.touch.material = std::move(parts.material);

@@ -85,6 +85,7 @@ struct ViewOptions {
     bool any_media{false};   ///< replay: also over files that have changed
     SurfacesFrom surfaces{SurfacesFrom::automatic};            ///< of a replay
     SurfaceRecording record_surface{SurfaceRecording::tiles};  ///< of recordings
+    bool record_preview{true};                                 ///< in them
     bool must_be_sure{false};                                  ///< --sure
     TouchRequest touch{};  ///< the command line's; it overrides a session's
     std::filesystem::path settings_file{settings_path()};  ///< where settings are saved

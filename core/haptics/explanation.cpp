@@ -119,7 +119,7 @@ class Explainer {
         update_.result = after(Dibhr::kMostMoves);
         update_.start = proxy.contact ? after(0) : proxy;
         update_.start.moves = update_.start.reads = 0;
-        update_.start.flown = {};
+        update_.start.flown = update_.start.motion_read = {};
     }
 
     ExplainedUpdate run() {

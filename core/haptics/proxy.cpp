@@ -51,6 +51,7 @@ const Proxy& ProxyAlgorithm::update(const DepthSurface& surface, Vec3 goal,
     const Vec3 goal_in_frame = surface.clamped_to_frame(surface.clamped_to_reach(goal));
     const SurfaceMotion motion = given.over(surface.columns(), surface.rows());
     carried_px_ = Vec3(0.0);
+    proxy_.flown = proxy_.motion_read = {};
     if (started_ && surface.columns() == columns_ && surface.rows() == rows_) {
         const Vec3 before = proxy_.position;
         const bool goes_along = proxy_.contact && motion.continues();
@@ -60,12 +61,11 @@ const Proxy& ProxyAlgorithm::update(const DepthSurface& surface, Vec3 goal,
         start_above(surface, goal_in_frame);
     }
     proxy_.moves = proxy_.reads = 0;
-    proxy_.flown = {};
     proxy_.bound_met = false;
     walk(surface, goal_in_frame, friction, proxy_);
     proxy_.position = surface.clamped_to_frame(proxy_.position);  // of round-off at the border
     if (proxy_.contact)
-        material_.attach_at(Vec2(proxy_.position), motion);
+        material_.attach_at(Vec2(proxy_.position), motion, proxy_.motion_read);
     else
         material_.forget();
     return proxy_;
@@ -83,10 +83,12 @@ void ProxyAlgorithm::start_above(const DepthSurface& surface, Vec3 goal) noexcep
 bool ProxyAlgorithm::carry(const DepthSurface& surface, const SurfaceMotion& motion) noexcept {
     Vec3& p = proxy_.position;
     const Vec2 here(p);
-    const Vec2 step = material_.step_from(here, motion);
+    const Vec2 step = material_.step_from(here, motion, proxy_.motion_read);
     if (step == Vec2(0.0) || !(glm::length(step) <= motion.farthest_px())) return false;
     const Vec2 there(surface.clamped_to_frame({here + step, p.z}));
     if (there == here) return false;
+    proxy_.flown.add(here);
+    proxy_.flown.add(there);
     const std::optional<double> elevation = elevation_beyond(surface, here, there);
     if (!elevation) return false;
     p = {there, *elevation};
@@ -131,8 +133,8 @@ Flight ProxyWalk::fly_to(Vec3 end) noexcept {
     const int moves_left = std::max(most_moves_ - proxy_.moves, 0);
     const Flight flight = fly(surface_, proxy_.position, end, moves_left * kMostCells / all_moves_);
     most_moves_ -= (flight.cells * all_moves_ + kMostCells - 1) / kMostCells;
-    proxy_.flown.add(proxy_.position);
-    proxy_.flown.add(flight.end);
+    proxy_.flown.add(Vec2(proxy_.position));
+    proxy_.flown.add(Vec2(flight.end));
     if (flight.cut_short) proxy_.bound_met = true;
     return flight;
 }

@@ -1,9 +1,6 @@
 // A proxy that follows goals over a surface: what every algorithm takes and gives.
 #pragma once
 
-#include <algorithm>
-#include <limits>
-
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/surface.hpp"
 #include "core/haptics/surface_motion.hpp"
@@ -19,21 +16,11 @@ struct Proxy {
     int reads{0};        ///< looked at in it, where the algorithm has a bound of them; else 0
     bool contact{false};
     bool slipping{false};  ///< the dynamic coefficient holds
-    /// The rectangle around all ends of its flights in this update [px]; left > right: it did not
-    /// fly. What it reads on the surface is within `moves` of these, or of its begin and end.
-    struct Flown {
-        double left{std::numeric_limits<double>::infinity()}, top{left};
-        double right{-std::numeric_limits<double>::infinity()}, bottom{right};
-
-        void add(const Vec3& end) noexcept {
-            left = std::min(left, end.x);
-            top = std::min(top, end.y);
-            right = std::max(right, end.x);
-            bottom = std::max(bottom, end.y);
-        }
-        bool operator==(const Flown&) const = default;
-    };
-    Flown flown{};
+    /// Around all ends of its flights in this update, and of the way on which it was to be carried.
+    /// What it reads on the surface is within `moves` of these, or of its begin and end.
+    PlaceBox flown{};
+    /// Around all places at which the motion was looked up, between four pixels each.
+    PlaceBox motion_read{};
     /// The walk came to its last move, or a flight to its last cell, before its end: it goes on
     /// from here in the next update.
     bool bound_met{false};

@@ -39,10 +39,13 @@ Vec2 way_at(const MotionField& field, Vec2 place) noexcept {
 /// The whole way of the point that is at `place` after a share of its way. The search begins with
 /// the way `like_px`. Where neighbours move so differently that the point is not found, the way of
 /// a point near it is taken.
-Vec2 way_through(const MotionField& field, Vec2 place, double share, Vec2 like_px) noexcept {
+Vec2 way_through(const MotionField& field, Vec2 place, double share, Vec2 like_px,
+                 PlaceBox& read) noexcept {
     Vec2 way = like_px;
     for (int k = 0; k < kMostRounds; ++k) {
-        const Vec2 next = way_at(field, place - share * way);
+        const Vec2 at = place - share * way;
+        read.add(at);
+        const Vec2 next = way_at(field, at);
         if (!is_finite(next)) return Vec2(0.0);
         const Vec2 change = share * (next - way);
         way = next;
@@ -66,16 +69,16 @@ double SurfaceMotion::farthest_px() const noexcept {
     return kFastestCarried_px_per_s * std::clamp(dt_s, 0.0, kLongestTick_s);
 }
 
-Vec2 MaterialPoint::step_from(Vec2 place, const SurfaceMotion& motion) noexcept {
+Vec2 MaterialPoint::step_from(Vec2 place, const SurfaceMotion& motion, PlaceBox& read) noexcept {
     if (!motion.crossed) return (motion.to_blend - motion.from_blend) * way_px_;
     const Vec2 rest_of_last = (1.0 - motion.from_blend) * way_px_;
-    attach_at(place + rest_of_last, {.field = motion.field});
+    attach_at(place + rest_of_last, {.field = motion.field}, read);
     return rest_of_last + motion.to_blend * way_px_;
 }
 
-void MaterialPoint::attach_at(Vec2 place, const SurfaceMotion& motion) noexcept {
+void MaterialPoint::attach_at(Vec2 place, const SurfaceMotion& motion, PlaceBox& read) noexcept {
     if (motion.field == nullptr) return forget();
-    way_px_ = way_through(*motion.field, place, motion.to_blend, way_px_);
+    way_px_ = way_through(*motion.field, place, motion.to_blend, way_px_, read);
 }
 
 }  // namespace dibhr

@@ -65,12 +65,14 @@ inline constexpr double kFastestCarried_px_per_s = 5000.0;
 /// between pixels. So its place between two images does not depend on the ticks.
 class MaterialPoint {
   public:
+    // Both add to `read` where they look the field up.
+
     /// How far it goes from `place`, where it was at the last update, to where it is in this one
     /// [px]. Always finite; exactly 0 where nothing is known.
-    [[nodiscard]] Vec2 step_from(Vec2 place, const SurfaceMotion& motion) noexcept;
+    [[nodiscard]] Vec2 step_from(Vec2 place, const SurfaceMotion& motion, PlaceBox& read) noexcept;
 
     /// Becomes the point that is at `place` in this update.
-    void attach_at(Vec2 place, const SurfaceMotion& motion) noexcept;
+    void attach_at(Vec2 place, const SurfaceMotion& motion, PlaceBox& read) noexcept;
 
     /// There is no such point, or its motion is not known.
     void forget() noexcept { way_px_ = Vec2(0.0); }

@@ -2,8 +2,11 @@
 #include "core/loop/felt_frames.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
+
+#include "core/video/sources/preview_picture.hpp"
 
 namespace dibhr {
 
@@ -16,6 +19,11 @@ std::size_t bytes_of(const Frame& frame) noexcept {
     const std::size_t images = frame.in_betweens ? 1 + frame.in_betweens->size() : 1;
     return frame.depth->levels.size() *
            (images * sizeof(float) + (frame.motion ? sizeof(MotionField::Way) : 0));
+}
+
+void drop_colour(Frame& frame) {
+    frame.colour.reset();
+    frame.video.reset();
 }
 
 /// What lies between two frames means nothing where a frame blends with itself.
@@ -44,25 +52,49 @@ void FeltFrames::add(const FrameWindow& window) {
         if (known != end) {
             known->shown = true;
         } else {
-            Frame& felt = frames_.emplace_back(Felt{.frame = frame, .shown = true}).frame;
-            felt.colour.reset();
-            felt.video.reset();
-            felt.undilated.reset();
+            Felt& felt = frames_.emplace_back(Felt{.frame = frame, .shown = true});
+            felt.frame.undilated.reset();
+            const Second second = second_of(frame);
+            felt.pictured =
+                keeps_ && pictures_ && last_kept_ != second && !pictured_.contains(second);
+            if (felt.pictured) last_kept_ = second;
         }
     }
+    for (Felt& felt : frames_)
+        if (!felt.shown && !felt.pictured) drop_colour(felt.frame);
     drop_unused();
 }
 
-void FeltFrames::keep(bool on) {
+void FeltFrames::keep(bool on, bool pictures) {
     const std::lock_guard lock(guard_);
     keeps_ = on;
+    pictures_ = pictures;
+    last_kept_.reset();
+    pictured_.clear();
     from_ = to_ = {};
     others_.clear();
     if (on) {
+        others_.emplace_back();
         for (const Algorithm algorithm : all_algorithms()) others_.push_back({algorithm});
         others_.push_back({.algorithm = Algorithm::dibhr, .slides = true});
     }
     drop_unused();
+}
+
+FeltFrames::Second FeltFrames::second_of(const Frame& frame) noexcept {
+    return {frame.media, std::llround(std::floor(frame.media_s))};
+}
+
+std::string FeltFrames::preview() {
+    Frame frame;
+    {
+        const std::lock_guard lock(guard_);
+        if (!pictures_ || !from_.has_colour() || !pictured_.insert(second_of(from_)).second)
+            return {};
+        frame = from_;
+        drop_colour(from_);
+    }
+    return preview_of(frame);
 }
 
 /// The caller holds the lock. Never drops what is in the last window.
@@ -109,11 +141,11 @@ std::optional<FeltSurface> FeltFrames::surface_of(const TickRecord& tick) {
     return surface;
 }
 
-std::vector<PixelBox> FeltFrames::read_by_others(const TickRecord& tick,
-                                                 const SessionParameters& parameters,
-                                                 const BumpMap* bump) {
+std::vector<SurfaceRead> FeltFrames::read_by_others(const TickRecord& tick,
+                                                    const SessionParameters& parameters,
+                                                    const BumpMap* bump) {
     const std::lock_guard lock(guard_);
-    std::vector<PixelBox> read;
+    std::vector<SurfaceRead> read;
     const DepthBlend frames{&from_, blends_with_itself(tick) ? &from_ : &to_, tick.blend};
     for (Other& other : others_) {
         if (!tick.surface || !frames.makes_surface()) {
@@ -121,7 +153,7 @@ std::vector<PixelBox> FeltFrames::read_by_others(const TickRecord& tick,
             continue;
         }
         TouchParameters touch = parameters.touch;
-        touch.algorithm = other.algorithm;
+        touch.algorithm = other.algorithm.value_or(touch.algorithm);
         if (other.slides) touch.friction = {0.0, 0.0};
         other.run.run(tick, frames, bump, touch, parameters);
         read.push_back(other.run.read());

@@ -2,7 +2,6 @@
 #include "core/loop/recorded_run.hpp"
 
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <utility>
 
 namespace dibhr {
@@ -26,13 +25,9 @@ const Touch& RecordedRun::run(const TickRecord& tick, const DepthBlend& frames, 
     touch_ = runner_.run(input, {touch, recorded.limits});
     const Proxy& now = touch_.proxy;
     const Vec3& begin = std::exchange(started_, true) ? before : now.position;
-    read_ = read_box(begin, now.position, touch_.goal, now.moves);
-    const Proxy::Flown& flown = now.flown;
-    if (flown.left <= flown.right) {
-        const PixelBox ends{flown.left, flown.top, flown.right, flown.bottom};
-        read_ = read_.with(ends).wider(now.moves / 2.0);
-    }
-    read_ = read_.wider(kNeighbours_px + glm::length(touch_.carried));
+    PlaceBox levels = read_box(begin, now.position, touch_.goal, now.moves);
+    if (!now.flown.empty()) levels = levels.with(now.flown).wider(now.moves / 2.0);
+    read_ = {levels.wider(kNeighbours_px), now.motion_read.wider(kNeighbours_px)};
     return touch_;
 }
 

@@ -24,7 +24,7 @@ class RecordedRun {
 
     [[nodiscard]] const Touch& touch() const noexcept { return touch_; }
     /// Holds all of the surface that the last update may have read.
-    [[nodiscard]] const PixelBox& read() const noexcept { return read_; }
+    [[nodiscard]] const SurfaceRead& read() const noexcept { return read_; }
     /// Of the last update; 0 without a surface.
     [[nodiscard]] std::chrono::steady_clock::duration update_time() const noexcept {
         return runner_.update_time();
@@ -33,7 +33,7 @@ class RecordedRun {
   private:
     TickRunner runner_{};
     Touch touch_{};  // the runner's; without a surface there is no contact
-    PixelBox read_{};
+    SurfaceRead read_{};
     bool started_{false};
 };
 

@@ -234,7 +234,7 @@ SessionSurfaces of_video(const Session& session, const SessionFramesOptions& opt
 }
 
 SessionSurfaces of_session(const Session& session, const SessionFramesOptions& options) {
-    auto frames = std::make_unique<StoredFrames>(session, options.materials);
+    auto frames = std::make_unique<StoredFrames>(session, options.materials, options.colour);
     SessionSurfaces opened{nullptr, frames->description(), {}, true};
     opened.surfaces = std::move(frames);
     return opened;

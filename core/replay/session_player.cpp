@@ -105,12 +105,11 @@ class SessionMoments {
     std::shared_ptr<const TouchedFrames> frames_{};  // of the last tick with a surface
 };
 
-std::unique_ptr<ContactBand> read_band(const std::filesystem::path& file, double begin_s,
-                                       double end_s, const std::atomic<bool>& stopping) {
+std::unique_ptr<ContactBand> read_band(const SessionReader& reader, double begin_s, double end_s,
+                                       const std::atomic<bool>& stopping) {
     auto band = std::make_unique<ContactBand>();
     const double pieces_per_s =
         static_cast<double>(ContactBand::kPieces) / std::max(end_s - begin_s, 1e-3);
-    SessionReader reader(file, IfDamaged::refuse);
     auto query = reader.rows("SELECT t, contact, stand_in FROM tick WHERE surface ORDER BY tick");
     while (!stopping && query.next()) {
         ++band->hand.all;
@@ -128,6 +127,8 @@ OpenedSession::OpenedSession(const std::filesystem::path& file, bool any_media, 
     : session(file),
       frames(open_surfaces((session.rescue_if_damaged(), session),
                            {.any_media = any_media, .colour = true}, from)) {
+    if (session.reader().is_rescued())
+        band = read_band(session.reader(), session.begin_s(), session.end_s(), false);
     if (session.rows() > 0 && !session.sources().empty()) return;
     // One of the first format says why it has no video.
     if (!session.warning().empty()) throw InputError(session.warning());
@@ -428,12 +429,13 @@ const SessionPlayback& SessionPlayer::playback() const {
     return implementation_->playback;
 }
 
-ContactBandReader::ContactBandReader(const Session& session) {
-    if (session.reader().is_rescued()) return;
+ContactBandReader::ContactBandReader(OpenedSession& opened) : band_(std::move(opened.band)) {
+    if (band_) return;
+    const Session& session = opened.session;
     result_ = std::async(
         std::launch::async,
         [this, file = session.file(), begin_s = session.begin_s(), end_s = session.end_s()] {
-            return read_band(file, begin_s, end_s, stopping_);
+            return read_band(SessionReader(file, IfDamaged::refuse), begin_s, end_s, stopping_);
         });
 }
 

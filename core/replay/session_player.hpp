@@ -23,6 +23,14 @@
 
 namespace dibhr {
 
+/// The time from the first tick to the last in equal pieces: which of them hold a contact.
+struct ContactBand {
+    static constexpr std::size_t kPieces = 1200;
+
+    std::array<bool, kPieces> contact{};
+    HandTicks hand{};
+};
+
 /// A session and its frames. One thread at a time.
 struct OpenedSession {
     /// Checks the whole file. Throws InputError when it cannot be read, holds no tick, or one of
@@ -32,6 +40,8 @@ struct OpenedSession {
 
     Session session;
     SessionSurfaces frames;
+    /// Of a damaged session, which is rescued only once; else null: see ContactBandReader.
+    std::unique_ptr<ContactBand> band{};
 };
 
 /// One tick, with its frames and parameters.
@@ -92,24 +102,16 @@ class SessionPlayer final : public Transport {
     std::unique_ptr<Implementation> implementation_;
 };
 
-/// The time from the first tick to the last in equal pieces: which of them hold a contact.
-struct ContactBand {
-    static constexpr std::size_t kPieces = 1200;
-
-    std::array<bool, kPieces> contact{};
-    HandTicks hand{};
-};
-
 /// Reads the session once, on a thread of its own, from construction on.
 class ContactBandReader {
   public:
-    explicit ContactBandReader(const Session& session);
+    /// Takes the band of `opened` where there is one.
+    explicit ContactBandReader(OpenedSession& opened);
     ~ContactBandReader();  ///< breaks off
     ContactBandReader(const ContactBandReader&) = delete;
     ContactBandReader& operator=(const ContactBandReader&) = delete;
 
-    /// Null until it is read, for a damaged session, which would have to be rescued once more, and
-    /// when reading failed: the player reports why.
+    /// Null until it is read, and when reading failed: the player reports why.
     [[nodiscard]] const ContactBand* band();
 
   private:

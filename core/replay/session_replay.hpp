@@ -41,7 +41,7 @@ class RecordedSurfaces {
     [[nodiscard]] virtual std::shared_ptr<const BumpMap> bump(
         const SessionParameters& parameters) = 0;
     /// Whether that part of the surface last given is known, at that blend of its frames.
-    [[nodiscard]] virtual bool holds(const PixelBox& /*box*/, double /*blend*/) const {
+    [[nodiscard]] virtual bool holds(const SurfaceRead& /*read*/, double /*blend*/) const {
         return true;
     }
 };

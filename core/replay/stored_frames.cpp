@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/replay/frames.hpp"
+#include "core/video/sources/preview_picture.hpp"
 
 namespace dibhr {
 
@@ -25,8 +26,9 @@ std::int64_t first_pair(const Session& session) {
 
 }  // namespace
 
-StoredFrames::StoredFrames(const Session& session, const SessionMaterials::Options& options)
-    : session_(session), reader_(session.reader()) {
+StoredFrames::StoredFrames(const Session& session, const SessionMaterials::Options& options,
+                           bool colour)
+    : session_(session), in_colour_(colour), reader_(session.reader()) {
     if (!reader_.any() || session.sources().empty())
         throw InputError(session.file().string() + ": holds no surface; put its video back");
     surface_ = surface_of(first_pair(session));
@@ -61,6 +63,7 @@ TouchedFrames StoredFrames::touched(const TickRecord& tick, const MotionRequest&
         frame.index = index;
         frame.media = pair.source.media;
         frame.cleaning = cleaning_of(pair.source);
+        frame.colour = colour_of(frame);
         const DepthImage& image = *frame.depth;
         frame.maps = materials_->maps_of(pair.source, {image.columns, image.rows});
     };
@@ -73,6 +76,17 @@ TouchedFrames StoredFrames::touched(const TickRecord& tick, const MotionRequest&
         frames.from.in_betweens = std::move(between);
     }
     return frames;
+}
+
+/// The picture nearest in time; one without a pixel where there is none.
+std::shared_ptr<const ColourImage> StoredFrames::colour_of(const Frame& frame) {
+    if (!in_colour_) return frame.colour;
+    const std::string& jpeg = reader_.preview(frame.media, frame.media_s);
+    if (jpeg == jpeg_) return picture_;
+    jpeg_ = jpeg;
+    picture_ = picture_of_preview(jpeg);
+    if (!picture_) picture_ = std::make_shared<const ColourImage>();
+    return picture_;
 }
 
 std::shared_ptr<const BumpMap> StoredFrames::bump(const SessionParameters& parameters) {

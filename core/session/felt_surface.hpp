@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
@@ -51,17 +52,10 @@ struct FeltSurface {
     std::shared_ptr<const MotionField> motion{};
 };
 
-/// A rectangle of an image [px]; both ends belong to it.
-struct PixelBox {
-    double left{0.0}, top{0.0}, right{0.0}, bottom{0.0};
-
-    [[nodiscard]] PixelBox with(const PixelBox& other) const noexcept {
-        return {std::min(left, other.left), std::min(top, other.top), std::max(right, other.right),
-                std::max(bottom, other.bottom)};
-    }
-    [[nodiscard]] PixelBox wider(double by_px) const noexcept {
-        return {left - by_px, top - by_px, right + by_px, bottom + by_px};
-    }
+/// What an update may have read of a surface.
+struct SurfaceRead {
+    PlaceBox levels{};
+    PlaceBox motion{};  ///< empty: none of it
 };
 
 /// How far around a place its elevation and normal are read.
@@ -71,7 +65,7 @@ inline constexpr double kNeighbours_px = 2.0;
 /// while the goal was there, without flights that end elsewhere. Each move crosses one TRIANGLE or
 /// EDGE, so along an axis it goes one pixel at most: a way that leaves the rectangle of its ends
 /// has to come back.
-[[nodiscard]] inline PixelBox read_box(const Vec3& before, const Vec3& after, const Vec3& goal,
+[[nodiscard]] inline PlaceBox read_box(const Vec3& before, const Vec3& after, const Vec3& goal,
                                        int moves) noexcept {
     const auto [left, right] = std::minmax({before.x, after.x, goal.x});
     const auto [top, bottom] = std::minmax({before.y, after.y, goal.y});
@@ -83,19 +77,17 @@ inline constexpr double kNeighbours_px = 2.0;
     return {left - across, top - down, right + across, bottom + down};
 }
 
-/// Holds all of the motion that such an update may read: a material point is looked for at the
-/// other end of its way, and at those of its neighbours.
-[[nodiscard]] PixelBox motion_box(const MotionField& motion, const PixelBox& read) noexcept;
-
 /// Finds the images that a tick touched, while they are in memory; called by the recorder's thread.
 class FeltSurfaces {
   public:
     virtual ~FeltSurfaces() = default;
     /// Nothing: they are not there any more. Images of earlier ticks may be released.
     [[nodiscard]] virtual std::optional<FeltSurface> surface_of(const TickRecord& tick) = 0;
+    /// The colour of the surface last given as a small JPEG file; empty: none, or none is due.
+    [[nodiscard]] virtual std::string preview() { return {}; }
     /// What every algorithm reads of the surface last given, and one without friction; nothing in a
     /// tick without a surface. To be asked for every tick.
-    [[nodiscard]] virtual std::vector<PixelBox> read_by_others(
+    [[nodiscard]] virtual std::vector<SurfaceRead> read_by_others(
         const TickRecord& /*tick*/, const SessionParameters& /*parameters*/,
         const BumpMap* /*bump*/) {
         return {};
@@ -142,7 +134,8 @@ class TileGrid {
         bool operator==(const Range&) const = default;
     };
     /// The tiles that the box, moved into the image, lies in.
-    [[nodiscard]] Range tiles_of(const PixelBox& box) const noexcept {
+    [[nodiscard]] Range tiles_of(const PlaceBox& box) const noexcept {
+        if (box.empty()) return {};
         const auto tile = [](double at, int pixels) {
             return static_cast<int>(at > 0.0 ? std::min(at, pixels - 1.0) : 0.0) / kTileSide;
         };

@@ -1,4 +1,4 @@
-"""Reads a session of dibhr, schemas 2 and 3 as FORMAT.md states them, with nothing but Python (and, for the
+"""Reads a session of dibhr, schemas 2 to 4 as FORMAT.md states them, with nothing but Python (and, for the
 surface, libzstd, which every distribution has).
 python3 read_session.py SESSION              its tables but for ticks, maps and surface, an object of JSON a line
 python3 read_session.py SESSION T.csv        also every tick, decoded from tick_data, as dibhr export
@@ -110,7 +110,7 @@ for table in ("session", "parameters", "source", "media", "pair", "mark", "clock
 view = db.execute("SELECT sql FROM sqlite_master WHERE name = 'tick'").fetchone()[0]
 if len(sys.argv) > 2:
     schema = db.execute("PRAGMA user_version").fetchone()[0]
-    if schema not in (2, 3) or "typeof(d.cx)" not in view:
+    if schema not in (2, 3, 4) or "typeof(d.cx)" not in view:
         sys.exit("its ticks are coded in another way than this reads: take its view, tick")
     csv.writer(open(sys.argv[2], "w", newline=""), lineterminator="\n").writerows([NAMES, *ticks(db)])
 if len(sys.argv) > 3:

@@ -117,11 +117,14 @@ void SessionReader::check_view() {
     // Recordings of before there were touch maps have no such table.
     if (database_->number("SELECT count(*) FROM sqlite_master WHERE name = 'touch_map'") > 0)
         require_tables(std::array{std::string_view("touch_map")});
-    Statement view = rows("SELECT sql FROM sqlite_master WHERE type = 'view' AND name = 'tick'");
-    const bool there = view.next();
     const bool later = schema_ > kSessionSchemaVersion;
-    if (!there || !(later || is_tick_view(view.text(0))))
-        refuse("its tables are not those of a recording");
+    const bool known = [&] {
+        Statement view =
+            rows("SELECT sql FROM sqlite_master WHERE type = 'view' AND name = 'tick'");
+        return view.next() && (later || is_tick_view(view.text(0)));
+    }();
+    if (!known && !has_one_view(schema_)) refuse("its tables are not those of a recording");
+    if (!known) use_own_view();
     if (!later) return;
     const std::string unknown = unknown_parts();
     other_schema_ = "was recorded by a newer dibhr (format " + std::to_string(schema_) +
@@ -129,6 +132,13 @@ void SessionReader::check_view() {
                     (unknown.empty() ? "no table or column of it is unknown here"
                                      : "not read: " + brief(unknown)) +
                     "; update dibhr";
+}
+
+/// Ticks are coded in one way in all files of this schema: the view's text is not needed.
+void SessionReader::use_own_view() {
+    database_->execute("PRAGMA temp_store = MEMORY; " + tick_view("CREATE TEMP VIEW"));
+    other_schema_ = "has a damaged view of its ticks, which are read as format " +
+                    std::to_string(schema_) + " codes them";
 }
 
 void SessionReader::require_tables(std::span<const std::string_view> wanted) const {

@@ -79,6 +79,7 @@ class SessionReader {
     void check_kind() const;
     void read_first_schema();
     void check_view();
+    void use_own_view();
     /// Requires ordinary tables: a view could be endless, a hidden column be computed.
     void require_tables(std::span<const std::string_view> names) const;
     /// Tables and columns of the file that this schema lacks, as a list; empty: none.

@@ -394,9 +394,9 @@ class TickLoss {
     std::optional<std::int64_t> recorded_{};
 };
 
-/// "its settings and its surface"; empty: nothing else is lost.
+/// "; not all can be read of its settings and surface"; empty: nothing else is lost.
 std::string other_losses(const std::set<std::string>& incomplete) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kNames{{
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kNames{{
         {"session", "facts"},
         {"parameters", "settings"},
         {"source", "sources"},
@@ -410,13 +410,17 @@ std::string other_losses(const std::set<std::string>& incomplete) {
         {"grid_tile", "surface"},
         {"tile", "surface"},
         {"bump_map", "surface"},
+        {"preview", "pictures"},
         {"sqlite_master", "tables"},
     }};
     std::vector<std::string_view> lost;
     for (const auto& [table, name] : kNames)
         if (incomplete.contains(std::string(table)) && std::ranges::find(lost, name) == lost.end())
             lost.push_back(name);
-    std::string text;
+    constexpr std::size_t kMostNamed = 4;
+    if (lost.empty()) return {};
+    if (lost.size() > kMostNamed) return "; its other tables may lack rows, too";
+    std::string text = "; not all can be read of its ";
     for (std::size_t k = 0; k < lost.size(); ++k)
         text.append(k == 0 ? "" : k + 1 == lost.size() ? " and " : ", ").append(lost[k]);
     return text;
@@ -430,9 +434,7 @@ RescuedTables rescued_tables(const std::filesystem::path& file, bool with_log,
 }
 
 std::string loss_text(const Database& database, const std::set<std::string>& incomplete) {
-    const std::string others = other_losses(incomplete);
-    return TickLoss(database, incomplete.contains("tick_data")).text() +
-           (others.empty() ? "" : "; not all can be read of its " + others);
+    return TickLoss(database, incomplete.contains("tick_data")).text() + other_losses(incomplete);
 }
 
 }  // namespace dibhr

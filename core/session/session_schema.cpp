@@ -28,6 +28,7 @@ CREATE TABLE touch_map(version INTEGER, kind TEXT, part INTEGER, lowest REAL, hi
   PRIMARY KEY(version, kind, part));
 CREATE TABLE surface(pair INTEGER, part INTEGER, highest REAL, levels INTEGER, unseen INTEGER,
   right INTEGER, down INTEGER, PRIMARY KEY(pair, part)) WITHOUT ROWID;
+CREATE TABLE preview(pair INTEGER PRIMARY KEY, jpeg BLOB);
 CREATE TABLE bump_map(media INTEGER PRIMARY KEY, grid INTEGER);
 CREATE TABLE grid(id INTEGER PRIMARY KEY, columns INTEGER, rows INTEGER);
 CREATE TABLE grid_tile(grid INTEGER, place INTEGER, tile INTEGER, PRIMARY KEY(grid, place))
@@ -255,10 +256,10 @@ std::string first_schema_value(const Column& column) {
 
 }  // namespace
 
-std::string tick_view() {
+std::string tick_view(std::string_view create) {
     std::string select;
     for (const Column& column : columns()) {
-        select += select.empty() ? "CREATE VIEW tick AS SELECT " : ",\n  ";
+        select += select.empty() ? std::string(create) + " tick AS SELECT " : ",\n  ";
         // A plain column keeps its declared type by itself.
         select += column.type.empty()
                       ? column.expression

@@ -12,7 +12,7 @@ namespace dibhr {
 inline constexpr int kSessionApplicationId = 0x64686170;
 /// Counts changes of the tables (`PRAGMA user_version`, and `schema_version` in table session).
 /// FORMAT.md states every schema that there was, and what a change must keep.
-inline constexpr int kSessionSchemaVersion = 3;
+inline constexpr int kSessionSchemaVersion = 4;
 /// The schema that had a table `tick`, and neither parameters nor files.
 inline constexpr int kFirstSessionSchema = 1;
 
@@ -37,11 +37,16 @@ inline constexpr std::array<std::string_view, 2> kFirstSessionTables{"session", 
 /// file's table, and the other tables of kSessionTables without rows, in the connection's memory.
 [[nodiscard]] std::string first_schema_as_this_one();
 
-/// The statement of the view `tick`, as it is stored in a session file.
-[[nodiscard]] std::string tick_view();
+/// The statement of the view `tick`; by default as it is stored in a session file.
+[[nodiscard]] std::string tick_view(std::string_view create = "CREATE VIEW");
+
+/// In all files of that schema ticks are coded as tick_view() reads them.
+[[nodiscard]] constexpr bool has_one_view(std::int64_t schema) noexcept {
+    return schema >= 3 && schema <= kSessionSchemaVersion;
+}
 
 /// Whether `sql` is the statement of the view `tick` in a file of this schema: tick_view(),
-/// or that of a dibhr that coded its ticks otherwise. A reader refuses any other: a change needs a
+/// or that of a dibhr that coded its ticks otherwise. A reader takes no other: a change needs a
 /// higher kSessionSchemaVersion, and the statement before it a line in is_tick_view().
 [[nodiscard]] bool is_tick_view(const std::string& sql);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -20,14 +21,14 @@ constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
 
 }  // namespace
 
-bool StoredSurface::holds(const PixelBox& box, double blend) const noexcept {
+bool StoredSurface::holds(const SurfaceRead& read, double blend) const noexcept {
     const BlendedImages two = blended_images(stored.size(), blend);
     bool all = true;
-    tiles.visit(tiles.tiles_of(box), [&](std::size_t place) {
+    tiles.visit(tiles.tiles_of(read.levels), [&](std::size_t place) {
         all = all && (*stored[two.from])[place] != 0 && (*stored[two.to])[place] != 0;
     });
     if (stored_motion.empty()) return all;
-    tiles.visit(tiles.tiles_of(motion_box(*felt.motion, box)),
+    tiles.visit(tiles.tiles_of(read.motion),
                 [&](std::size_t place) { all = all && stored_motion[place] != 0; });
     return all;
 }
@@ -84,6 +85,47 @@ std::shared_ptr<const BumpMap> SurfaceReader::bump(const std::filesystem::path& 
         return std::make_shared<BumpMap>(BumpMap{read.columns, read.rows, std::move(read.values)});
     }
     return nullptr;
+}
+
+bool SurfaceReader::has_previews() const {
+    return session_.rows("SELECT 1 FROM sqlite_master WHERE name = 'preview' AND rootpage > 0")
+        .next();
+}
+
+SurfaceReader::PreviewExtent SurfaceReader::preview_extent() const {
+    if (!has_previews()) return {};
+    Statement row = session_.rows("SELECT count(*), ifnull(sum(length(jpeg)), 0) FROM preview");
+    return row.next() ? PreviewExtent{row.integer(0), row.integer(1)} : PreviewExtent{};
+}
+
+void SurfaceReader::read_previews() {
+    constexpr std::size_t kMostPreviews = 1'000'000;  // more than a week
+    previews_.emplace();
+    if (!has_previews()) return;
+    Statement rows = session_.rows(
+        "SELECT s.media, q.from_s, v.pair FROM preview v JOIN pair q ON q.id = v.pair "
+        "JOIN source s ON s.id = q.source");
+    while (rows.next() && previews_->size() < kMostPreviews)
+        previews_->push_back(
+            {static_cast<std::uint32_t>(rows.integer(0)), rows.real(1), rows.integer(2)});
+}
+
+const std::string& SurfaceReader::preview(std::uint32_t media, double media_s) {
+    if (!previews_) read_previews();
+    const Preview* nearest = nullptr;
+    for (const Preview& one : *previews_) {
+        const auto off = [media_s](const Preview& other) {
+            return std::abs(other.media_s - media_s);
+        };
+        if (one.media == media && (nearest == nullptr || off(one) < off(*nearest))) nearest = &one;
+    }
+    const std::int64_t pair = nearest == nullptr ? 0 : nearest->pair;
+    if (pair == std::exchange(preview_pair_, pair)) return preview_;
+    preview_.clear();
+    if (nearest == nullptr) return preview_;
+    Statement row = session_.rows("SELECT jpeg FROM preview WHERE pair = " + std::to_string(pair));
+    if (row.next()) preview_ = row.bytes(0);
+    return preview_;
 }
 
 template <typename Thing, typename Read>

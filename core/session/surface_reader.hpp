@@ -26,8 +26,8 @@ struct StoredSurface {
     std::vector<std::shared_ptr<const std::vector<std::uint8_t>>> stored{};
     std::vector<std::uint8_t> stored_motion{};  ///< likewise; none: there is no motion
 
-    /// Whether all of the box, moved into the image, is stored in the images of that blend.
-    [[nodiscard]] bool holds(const PixelBox& box, double blend) const noexcept;
+    /// Whether all that was read, moved into the image, is stored in the images of that blend.
+    [[nodiscard]] bool holds(const SurfaceRead& read, double blend) const noexcept;
 };
 
 /// Reads the newest images once. One thread at a time; throws InputError for a damaged file.
@@ -42,8 +42,22 @@ class SurfaceReader {
     [[nodiscard]] std::optional<StoredSurface> surface(std::int64_t pair);
     /// The bump map that was read from that file; null: not stored.
     [[nodiscard]] std::shared_ptr<const BumpMap> bump(const std::filesystem::path& file);
+    /// So many pictures, and their bytes in the file.
+    struct PreviewExtent {
+        std::int64_t count{0}, bytes{0};
+    };
+    [[nodiscard]] PreviewExtent preview_extent() const;
+    /// The picture of that media whose time is nearest: a JPEG file; empty: none is stored.
+    [[nodiscard]] const std::string& preview(std::uint32_t media, double media_s);
 
   private:
+    struct Preview {
+        std::uint32_t media{0};
+        double media_s{0.0};
+        std::int64_t pair{0};
+    };
+    [[nodiscard]] bool has_previews() const;  ///< false: the file is of before they were stored
+    void read_previews();
     /// An image of numbers; 0 where nothing is stored.
     struct Grid {
         int columns{0}, rows{0};
@@ -79,6 +93,9 @@ class SurfaceReader {
     TileUnpacker unpacker_{};
     Kept<Levels> levels_{};
     Kept<Marks> marks_{};
+    std::optional<std::vector<Preview>> previews_{};  // of all, once one was asked for
+    std::int64_t preview_pair_{0};                    // of the picture last read; 0: none
+    std::string preview_{};
 };
 
 }  // namespace dibhr

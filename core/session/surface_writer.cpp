@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -30,7 +31,8 @@ SurfaceWriter::SurfaceWriter(const Database& database, FeltSurfaces& surfaces, S
       insert_surface_(database, "INSERT INTO surface VALUES (?, ?, ?, ?, ?, ?, ?)"),
       insert_place_(database, "INSERT INTO grid_tile VALUES (?, ?, ?)"),
       insert_tile_(database, "INSERT INTO tile VALUES (?, ?)"),
-      insert_bump_(database, "INSERT OR IGNORE INTO bump_map VALUES (?, ?)") {}
+      insert_bump_(database, "INSERT OR IGNORE INTO bump_map VALUES (?, ?)"),
+      insert_preview_(database, "INSERT INTO preview VALUES (?, ?)") {}
 
 void SurfaceWriter::begin(std::int64_t pair, const TickRecord& tick) {
     flush();
@@ -54,11 +56,13 @@ void SurfaceWriter::begin(std::int64_t pair, const TickRecord& tick) {
                             id(parts_[k].unseen), first ? id(ways_[0]) : std::nullopt,
                             first ? id(ways_[1]) : std::nullopt);
     }
+    const std::string jpeg = surfaces_.preview();
+    if (!jpeg.empty()) insert_preview_.run(pair, SqlBytes{jpeg});
 }
 
 void SurfaceWriter::add(const TickRecord& tick, const SessionParameters* parameters,
                         const BumpMap* bump) {
-    std::vector<PixelBox> others;
+    std::vector<SurfaceRead> others;
     if (parameters != nullptr && how_ == SurfaceRecording::tiles &&
         !(tick.surface && parts_.empty()))
         others = surfaces_.read_by_others(tick, *parameters, bump);
@@ -66,28 +70,23 @@ void SurfaceWriter::add(const TickRecord& tick, const SessionParameters* paramet
     const Vec3 before = proxy_.value_or(tick.proxy);
     proxy_ = tick.proxy;
     if (parts_.empty()) return;
-    want(read_box(before, tick.proxy, tick.goal, tick.moves), tick.blend);
-    for (const PixelBox& box : others) want(box, tick.blend);
+    want({read_box(before, tick.proxy, tick.goal, tick.moves), {}}, tick.blend);
+    for (const SurfaceRead& read : others) want(read, tick.blend);
 }
 
-void SurfaceWriter::want(const PixelBox& read, double blend) {
+void SurfaceWriter::want(const SurfaceRead& read, double blend) {
     const TileGrid& tiles = parts_.front().levels->tiles;
-    const PixelBox box = read.wider(kMargin_px);
-    const bool whole = how_ == SurfaceRecording::whole;
-    const TileGrid::Range range = whole ? tiles.all() : tiles.tiles_of(box);
+    const auto range = [&](const PlaceBox& box) {
+        return how_ == SurfaceRecording::whole ? tiles.all()
+                                               : tiles.tiles_of(box.wider(kMargin_px));
+    };
     const BlendedImages two = blended_images(parts_.size(), blend);
     for (const std::size_t k : {two.from, two.to}) {
-        parts_[k].levels->want(range);
-        if (parts_[k].unseen) parts_[k].unseen->want(range);
+        parts_[k].levels->want(range(read.levels));
+        if (parts_[k].unseen) parts_[k].unseen->want(range(read.levels));
     }
-    if (motion_) want_motion(box);
-}
-
-void SurfaceWriter::want_motion(const PixelBox& box) {
-    const TileGrid& tiles = ways_[0]->tiles;
-    const TileGrid::Range range =
-        how_ == SurfaceRecording::whole ? tiles.all() : tiles.tiles_of(motion_box(*motion_, box));
-    for (const SharedGrid& grid : ways_) grid->want(range);
+    if (!motion_) return;
+    for (const SharedGrid& grid : ways_) grid->want(range(read.motion));
 }
 
 void SurfaceWriter::flush() {

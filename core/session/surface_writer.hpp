@@ -68,15 +68,15 @@ class SurfaceWriter {
     [[nodiscard]] SharedGrid grid_of(const std::shared_ptr<const Data>& data, int columns, int rows,
                                      Value value);
     [[nodiscard]] Part part_of(const FeltImage& image);
-    void want(const PixelBox& box, double blend);
+    void want(const SurfaceRead& read, double blend);
     void take_motion(const std::shared_ptr<const MotionField>& motion);
-    void want_motion(const PixelBox& box);
     void write_tiles(Grid& grid);
     [[nodiscard]] std::int64_t tile_id(const Tile& tile);
 
     FeltSurfaces& surfaces_;
     const SurfaceRecording how_;
-    Statement insert_grid_, insert_surface_, insert_place_, insert_tile_, insert_bump_;
+    Statement insert_grid_, insert_surface_, insert_place_, insert_tile_, insert_bump_,
+        insert_preview_;
     TilePacker packer_{};
     std::int64_t grids_{0}, tiles_{0};  ///< so many rows
     std::set<std::int64_t> bumps_{};    ///< whose map is written

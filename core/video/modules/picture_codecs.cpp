@@ -13,7 +13,7 @@ const PictureCodecs& picture_codecs() {
 
 std::string encoded_png(const cv::Mat& picture) {
     std::vector<unsigned char> png;
-    picture_codecs().encode(".png", picture, png);
+    picture_codecs().encode(".png", picture, png, {});
     return {png.begin(), png.end()};
 }
 

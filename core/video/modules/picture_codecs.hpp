@@ -22,7 +22,7 @@ struct PictureCodecs {
     cv::Mat (*read)(const std::string& file, int flags);
     cv::Mat (*decode)(const cv::Mat& bytes, int flags);
     bool (*encode)(const std::string& extension, const cv::Mat& picture,
-                   std::vector<unsigned char>& bytes);
+                   std::vector<unsigned char>& bytes, const std::vector<int>& options);
     bool (*write)(const std::string& file, const cv::Mat& picture, const std::vector<int>& options);
     TiffTags (*tiff_tags)(const std::string& file);  ///< by libtiff; no tags where it cannot read
 };

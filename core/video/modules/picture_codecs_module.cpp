@@ -82,8 +82,10 @@ const dibhr::PictureCodecs dibhr_picture_codecs{
     .read = [](const std::string& file, int flags) { return cv::imread(file, flags); },
     .decode = [](const cv::Mat& bytes, int flags) { return cv::imdecode(bytes, flags); },
     .encode =
-        [](const std::string& extension, const cv::Mat& picture,
-           std::vector<unsigned char>& bytes) { return cv::imencode(extension, picture, bytes); },
+        [](const std::string& extension, const cv::Mat& picture, std::vector<unsigned char>& bytes,
+           const std::vector<int>& options) {
+            return cv::imencode(extension, picture, bytes, options);
+        },
     .write = [](const std::string& file, const cv::Mat& picture,
                 const std::vector<int>& options) { return cv::imwrite(file, picture, options); },
     .tiff_tags = tiff_tags};

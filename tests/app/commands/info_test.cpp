@@ -312,7 +312,8 @@ TEST_CASE("every command warns of a recording that was copied without its log", 
     }
 }
 
-TEST_CASE("every command refuses a session made to keep it busy, in one line", "[info]") {
+TEST_CASE("every command refuses a session made to keep it busy, or reads it without that part",
+          "[info]") {
     const TemporaryFolder folder;
     run_shell(folder,
               "ffmpeg -v error -f lavfi -i testsrc2=size=60x40:rate=30:duration=0.2 -c:v ffv1 "
@@ -337,10 +338,13 @@ TEST_CASE("every command refuses a session made to keep it busy, in one line", "
           {"experiment", "human", "--session", "mine.dibhr"}}) {
         CAPTURE(command[0]);
         const ProgramResult result = run_dibhr(folder, command);
-        CHECK(result.exit_code == 1);
-        CHECK(result.output.empty());
+        // Ticks are coded in one way; an experiment takes none over another video than the sample.
+        const bool needless = sql.starts_with("DROP VIEW tick") && command[0] != "experiment";
+        CHECK(result.exit_code == (needless ? 0 : 1));
+        CHECK(result.output.empty() != needless);
         CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
         CHECK(result.errors.find("mine.dibhr: ") != std::string::npos);
+        CHECK((result.errors.find("a damaged view of its ticks") != std::string::npos) == needless);
         CHECK(result.peak_memory_bytes < std::size_t{300} << 20);
     }
 }

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 
 #include "tests/support/catch.hpp"
@@ -279,8 +280,27 @@ void run_shell(const std::string& command) {
 
 void require_same_bits(const TemporaryFolder& folder, const fs::path& session) {
     const fs::path told = folder / "replay.txt";
-    run_shell("'" DIBHR_PROGRAM "' replay '" + session.string() + "' > '" + told.string() + "'");
-    run_shell("grep -q 'identical, bit for bit' '" + told.string() + "'");
+    const auto replay = [&](const std::string& options) {
+        run_shell("'" DIBHR_PROGRAM "' replay '" + session.string() + "' " + options + " > '" +
+                  told.string() + "'");
+        return read_text(told);
+    };
+    REQUIRE(contains(replay(""), "identical, bit for bit"));
+    // As if its video were deleted.
+    REQUIRE(contains(replay("--surface-from session"), "identical, bit for bit"));
+    const std::string all = replay(
+        "--surface-from session --algorithm dibhr --algorithm pga --algorithm neighborhood "
+        "--algorithm god-object");
+    INFO(all);
+    int algorithms = 0;
+    std::istringstream lines(all);
+    for (std::string line; std::getline(lines, line);) {
+        if (!contains(line, " left the surface that the session holds")) continue;
+        ++algorithms;
+        const auto share = line.find('(');
+        CHECK((share == std::string::npos || std::stod(line.substr(share + 1)) <= 0.5));  // %
+    }
+    CHECK(algorithms >= 4);
 }
 
 }  // namespace dibhr::test

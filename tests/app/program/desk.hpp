@@ -153,7 +153,9 @@ struct Row {
 /// Runs a command line in a shell; fails the test when it fails.
 void run_shell(const std::string& command);
 
-/// Replays a session into `folder`; fails the test unless all of it comes again, bit for bit.
+/// Replays a session into `folder`, over its video and from the surface in it; fails the test
+/// unless all of it comes again, bit for bit, and of the updates of every algorithm at least 99.5 %
+/// read only what is stored.
 void require_same_bits(const TemporaryFolder& folder, const std::filesystem::path& session);
 
 }  // namespace dibhr::test

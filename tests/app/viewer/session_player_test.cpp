@@ -3,8 +3,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <memory>
 #include <string>
@@ -17,6 +19,7 @@
 #include "core/error.hpp"
 #include "core/replay/session_player.hpp"
 #include "core/replay/session_replay.hpp"
+#include "core/sqlite/database.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/recorded_session.hpp"
 #include "tests/support/catch.hpp"
@@ -101,6 +104,31 @@ std::int64_t last_due(const std::vector<TickRecord>& ticks, double due_s) {
 }
 
 }  // namespace
+
+TEST_CASE("a damaged session shows where its hand touched, but for what cannot be read",
+          "[session]") {
+    constexpr std::streamoff kPage = 16384;
+    const Recorded recorded;
+    const auto band_of = [&recorded] {
+        const auto opened = recorded.open();
+        ContactBandReader reader(*opened);
+        REQUIRE(eventually([&] { return reader.band() != nullptr; }));
+        CHECK(reader.band()->hand.all > 0);
+        return reader.band()->contact;
+    };
+    const auto whole = band_of();
+    const std::int64_t page = Database(recorded.file)
+                                  .number(
+                                      "SELECT pageno FROM dbstat WHERE name = 'tick_data' AND "
+                                      "pagetype = 'leaf' ORDER BY pageno LIMIT 1 OFFSET 2");
+    std::fstream(recorded.file, std::ios::in | std::ios::out | std::ios::binary)
+        .seekp((page - 1) * kPage)
+        .write(std::string(kPage, '\0').data(), kPage);
+    const auto part = band_of();
+    const auto touched = [](const auto& band) { return std::ranges::count(band, true); };
+    CHECK(touched(part) > 0);
+    CHECK(touched(part) < touched(whole));
+}
 
 TEST_CASE("a replay passes every tick once and in order, over exactly the frames it touched",
           "[player]") {

@@ -87,16 +87,16 @@ class CarriedOnPlane {
   public:
     CarriedOnPlane(MovingScene& scene, Vec2 foot, double radius_px)
         : scene_(scene), foot_(foot), radius_px_(radius_px), place_(foot) {
-        point_.attach_at(place_, motion_between(scene_, 0.0, 0.0));
+        point_.attach_at(place_, motion_between(scene_, 0.0, 0.0), read_);
     }
 
     void go_on(double last_s, double now_s) {
         const SurfaceMotion motion = motion_between(scene_, last_s, now_s);
-        place_ += point_.step_from(place_, motion);
+        place_ += point_.step_from(place_, motion, read_);
         const double off_px = glm::length(place_ - foot_);
         slides_ = off_px > radius_px_;
         if (slides_) place_ = foot_ + radius_px_ / off_px * (place_ - foot_);
-        point_.attach_at(place_, motion);
+        point_.attach_at(place_, motion, read_);
     }
     [[nodiscard]] Vec2 place() const { return place_; }
     [[nodiscard]] bool slides() const { return slides_; }
@@ -107,6 +107,7 @@ class CarriedOnPlane {
     double radius_px_;
     Vec2 place_;
     MaterialPoint point_{};
+    PlaceBox read_{};
     bool slides_{false};
 };
 
@@ -134,14 +135,15 @@ TEST_CASE("a material point is where it is, however often it was asked for on th
         MovingScene scene(640, 480, 15.0, named.motion, 0.0);
         const auto walked_to = [&](double end_s, auto next_s) {
             MaterialPoint point;
+            PlaceBox read;
             Vec2 place = named.touched;
             double last_s = 0.0;
-            point.attach_at(place, motion_between(scene, 0.0, 0.0));
+            point.attach_at(place, motion_between(scene, 0.0, 0.0), read);
             while (last_s < end_s) {
                 const double now_s = std::min(next_s(last_s), end_s);
                 const SurfaceMotion motion = motion_between(scene, last_s, now_s);
-                place += point.step_from(place, motion);
-                point.attach_at(place, motion);
+                place += point.step_from(place, motion, read);
+                point.attach_at(place, motion, read);
                 last_s = now_s;
             }
             return place;
@@ -333,9 +335,10 @@ TEST_CASE("without carry, or without motion, nothing is carried: the same bits",
                 return motion;
             };
             const Touch off = run(0, false, {});
-            const std::vector<Touch> others{run(1, false, with(moving)), run(2, true, going),
-                                            run(3, true, with(still))};
-            for (const Touch& other : others) {
+            std::vector<Touch> others{run(1, false, with(moving)), run(2, true, going),
+                                      run(3, true, with(still))};
+            for (Touch& other : others) {
+                other.proxy.motion_read = {};  // what was read is no part of what was felt
                 if (other.proxy == off.proxy &&
                     other.spring_force_newton == off.spring_force_newton &&
                     other.sent_force_newton == off.sent_force_newton && other.carried == Vec3(0.0))

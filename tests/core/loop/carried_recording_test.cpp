@@ -90,13 +90,16 @@ class CarriedHand {
             FrameWindow window = video_.window_at(now_s_);
             window.clock = {{}, now_s_, 0.0};
             window.discontinuity = discontinuity;
-            if (!knows_motion)
-                for (Frame& frame : window.frames) frame.motion.reset();
+            for (Frame& frame : window.frames) {
+                if (!knows_motion || other_motion) frame.motion = other_motion;
+                if (other_depth) frame.depth = other_depth;
+            }
             felt.add(window);
             bench.frames.publish(window);
             const double t = ++ticks_ * kTick_s;
             bench.hand.goal = {80.0 + 20.0 * std::sin(3.0 * t), 48.0 + 15.0 * std::sin(2.0 * t),
                                96.0 - 12.0 * std::sin(1.3 * t)};
+            if (!moves_itself) bench.hand.goal = {92.0, 48.0, 90.0};
             if (ticks_ % 611 == 0) bench.hand.goal.x = NAN;
             tick_.run({std::chrono::steady_clock::time_point{std::chrono::milliseconds(ticks_)},
                        kTick_s,
@@ -116,6 +119,10 @@ class CarriedHand {
     FeltFrames felt{};
     bool plays{true};
     bool knows_motion{true};
+    // Instead of the video's; null: those.
+    std::shared_ptr<const MotionField> other_motion{};
+    std::shared_ptr<const DepthImage> other_depth{};
+    bool moves_itself{true};
     std::uint64_t discontinuity{0};
     int carried{0};
 
@@ -202,6 +209,46 @@ TEST_CASE("a session of a hand that was carried replays to the same bits", "[car
             REQUIRE_FALSE(alone.left_known(run));
             REQUIRE(same_bits(alone.touch(run).proxy.position, whole.touch(run).proxy.position));
         }
+    }
+}
+
+TEST_CASE("a hand that was carried far when the video jumped replays without it to the same bits",
+          "[carry]") {
+    // What was under the hand had come 20 px. So the search for what is under it after the jump
+    // begins 18 px to the left, where something moves as fast: nothing near the hand does.
+    const auto moving_left_of = [](int column) {
+        auto field = std::make_shared<MotionField>(MotionField{160, 96, {}});
+        for (int k = 0; k < 160 * 96; ++k)
+            field->ways.push_back({k % 160 < column ? 20.0F : 0.0F, 0.0F});
+        return field;
+    };
+    const TemporaryFolder folder;
+    const auto file = folder / "jump.dibhr";
+    WanderingVideo video;
+    CarriedHand hand(video);
+    hand.moves_itself = false;
+    hand.other_depth = flat_frame(160, 96, 100.0F).depth;
+    {
+        hand.felt.keep(true);
+        Recorder recorder(file, *hand.bench.ticks, {}, nullptr, std::chrono::steady_clock::now,
+                          {&hand.felt});
+        recorder.media(1, "colour.mp4", "depth.mp4");
+        recorder.parameters(as_recorded(hand.bench.handed));
+        hand.other_motion = moving_left_of(160);
+        hand.run(100);
+        hand.other_motion = moving_left_of(80);
+        hand.seek(1.0 + 0.9 / kFramesPerSecond);
+        hand.carried = 0;
+        hand.run(3);
+    }
+    CHECK(hand.carried == 2);
+    const Session session(file);
+    StoredFrames stored(session, {});
+    SessionReplay replay(session, stored, {{}});
+    while (replay.next()) {
+        CAPTURE(replay.recorded().tick);
+        REQUIRE(same_bits(replay.touch(0), replay.recorded()));
+        REQUIRE_FALSE(replay.left_known(0));
     }
 }
 

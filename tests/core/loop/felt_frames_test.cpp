@@ -1,10 +1,14 @@
 // The frames that wait for the recorder.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/loop/felt_frames.hpp"
+#include "core/video/sources/preview_picture.hpp"
 #include "tests/core/loop/loop_bench.hpp"
 #include "tests/support/catch.hpp"
 
@@ -66,6 +70,48 @@ TEST_CASE("while a recording is on frames are kept until later ones are asked fo
     }
     CHECK_FALSE(felt.surface_of(film.tick(3, 4)));
     CHECK(felt.surface_of(film.tick(19, 20)));  // still shown
+}
+
+TEST_CASE("of each second of a video that is recorded there is one small picture", "[felt]") {
+    constexpr std::size_t kFrames = 60;  // of 2.4 s
+    Film film;
+    FeltFrames felt;
+    std::vector<std::weak_ptr<const ColourImage>> colours;
+    const auto coloured = [&](std::size_t k) {
+        auto colour = std::make_shared<ColourImage>(ColourImage{1300, 20, {}});
+        colour->rgb.assign(std::size_t{3} * 1300 * 20, static_cast<std::uint8_t>(2 * k));
+        colours.emplace_back(colour);
+        return colour;
+    };
+    const auto record_all = [&](bool pictures) {
+        felt.keep(true, pictures);
+        std::shared_ptr<const ColourImage> colour = coloured(0);
+        for (std::size_t k = 0; k < kFrames; ++k) {
+            FrameWindow window = film.window(k);
+            window.frames[0].colour = std::exchange(colour, coloured(k + 1));
+            window.frames[1].colour = colour;
+            felt.add(window);
+        }
+    };
+    const auto pictured = [&] {
+        std::vector<std::size_t> frames;
+        for (std::size_t k = 0; k + 1 < kFrames; ++k) {
+            REQUIRE(felt.surface_of(film.tick(k, k + 1)));
+            const auto picture = picture_of_preview(felt.preview());
+            if (!picture) continue;
+            CHECK(picture->columns == 433);
+            CHECK(picture->rows == 6);
+            CHECK(std::abs(picture->rgb[0] - static_cast<int>(2 * k)) <= 2);
+            frames.push_back(k);
+        }
+        return frames;
+    };
+    record_all(true);
+    const auto alive = std::ranges::count_if(colours, [](const auto& c) { return !c.expired(); });
+    CHECK(alive <= 6);  // one a second, and those of the last window
+    CHECK(pictured() == std::vector<std::size_t>{0, 25, 50});
+    record_all(false);
+    CHECK(pictured().empty());
 }
 
 TEST_CASE("without a recording only what is shown is kept", "[felt]") {

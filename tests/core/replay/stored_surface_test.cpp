@@ -1,11 +1,14 @@
 // A session that holds the surface that was felt: it replays without its video, to the same bits.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -16,6 +19,7 @@
 #include "core/replay/stored_frames.hpp"
 #include "core/session/recorder.hpp"
 #include "core/session/surface_reader.hpp"
+#include "core/video/sources/preview_picture.hpp"
 #include "tests/core/session/exploration.hpp"
 #include "tests/core/session/session_folder.hpp"
 #include "tests/support/catch.hpp"
@@ -30,12 +34,14 @@ struct Made {
     SurfaceRecording how{SurfaceRecording::tiles};
     int ticks{3000};
     bool forgets{false};
+    std::function<std::string(const Frame&)> picture{};
 };
 
 /// Records a hand, with a change of algorithm now and then.
 RecorderStatus record(const SessionFolder& folder, MovingSurface& surface, const Made& made = {}) {
     FeltMovingSurface felt(surface);
     felt.forgets = made.forgets;
+    felt.picture = made.picture;
     const auto ring = std::make_unique<TickRing>();
     Recorder recorder(folder.file(), *ring, {}, nullptr, std::chrono::steady_clock::now,
                       {&felt, made.how});
@@ -93,6 +99,41 @@ TEST_CASE("a session that holds its surface replays to the same bits without the
         in_contact += replay.recorded().contact ? 1 : 0;
     }
     CHECK(in_contact > 1500);
+}
+
+TEST_CASE("without the video a window shows the stored picture that is nearest in time",
+          "[replay]") {
+    const SessionFolder folder;
+    MovingSurface surface;
+    std::set<double> pictured;
+    const auto picture = [&pictured](const Frame& frame) -> std::string {
+        const auto number = std::lround(frame.media_s / MovingSurface::kInterval_s);
+        if (number % 10 != 0 || !pictured.insert(frame.media_s).second) return {};
+        const auto grey = static_cast<std::uint8_t>(8 * number);  // of frames 0, 10 and 20
+        Frame coloured = frame;
+        coloured.colour = std::make_shared<ColourImage>(
+            ColourImage{8, 8, std::vector<std::uint8_t>(std::size_t{3} * 8 * 8, grey)});
+        return preview_of(coloured);
+    };
+    (void)record(folder, surface, {.ticks = 1500, .picture = picture});
+    const Session session(folder.file());
+    CHECK(SurfaceReader(session.reader()).preview_extent().count == 3);
+    const SessionSurfaces opened = open_surfaces(session, {.colour = true});
+    SessionReplay replay(session, *opened.surfaces, {});
+    while (replay.next()) {
+        if (!replay.recorded().surface) continue;
+        const Frame& frame = replay.frames()->from;
+        const auto number = static_cast<double>(frame.index);
+        CAPTURE(frame.index);
+        REQUIRE(frame.has_colour());
+        CHECK(frame.colour->columns == 8);
+        const double nearest = std::min(10.0 * std::round(number / 10.0), 20.0);
+        CHECK(std::abs(frame.colour->rgb[0] / 8.0 - number) <= std::abs(nearest - number) + 0.3);
+    }
+    StoredFrames of_a_run(session, {});
+    SessionReplay run(session, of_a_run, {});
+    REQUIRE(run.next());
+    CHECK_FALSE(run.frames()->from.has_colour());
 }
 
 TEST_CASE(

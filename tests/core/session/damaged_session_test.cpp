@@ -406,6 +406,26 @@ TEST_CASE("a table whose statement is damaged is read by this schema's and no qu
     CHECK(contains(session.warning(), "not all can be read of its marks"));
 }
 
+TEST_CASE("a session with another view of its ticks is read as its format codes them",
+          "[session]") {
+    const SessionFolder folder;
+    record_surface(folder.file(), 500);
+    const Ticks all = [&] { return ticks_of(Session(folder.file()).reader()); }();
+    const std::string sql = GENERATE(
+        as<std::string>{}, "DROP VIEW tick",
+        "DROP VIEW tick; CREATE VIEW tick AS SELECT * FROM tick_data",
+        "DROP VIEW tick; CREATE VIEW tick AS WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + "
+        "1 "
+        "FROM c) SELECT x AS t, x AS tick FROM c",
+        "PRAGMA writable_schema = ON; UPDATE sqlite_master SET sql = replace(sql, 'gx', 'gy') "
+        "WHERE name = 'tick'");
+    REQUIRE(change(folder.file(), sql));
+    Session session(folder.file());
+    session.rescue_if_damaged();
+    CHECK(ticks_of(session.reader()) == all);
+    CHECK(contains(session.warning(), "has a damaged view of its ticks"));
+}
+
 TEST_CASE("of a damaged session numbers that no recording reaches are refused in one line",
           "[session]") {
     const SessionFolder folder;

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/haptics/surface.hpp"
@@ -73,7 +75,10 @@ class FeltMovingSurface final : public FeltSurfaces {
   public:
     explicit FeltMovingSurface(MovingSurface& surface) : surface_(surface) {}
 
-    bool forgets{false};  ///< as if they were not in memory any more
+    bool forgets{false};                                 ///< as if they were not in memory any more
+    std::function<std::string(const Frame&)> picture{};  ///< of a first frame; null: none
+
+    [[nodiscard]] std::string preview() override { return picture ? picture(from_) : ""; }
 
     [[nodiscard]] std::optional<FeltSurface> surface_of(const TickRecord& tick) override {
         if (forgets) return std::nullopt;
@@ -82,10 +87,10 @@ class FeltMovingSurface final : public FeltSurfaces {
         to_ = surface_.frame(pair.source, pair.to_s);
         return FeltSurface{.images = {{from_.depth, {}}, {to_.depth, {}}}, .motion = {}};
     }
-    [[nodiscard]] std::vector<PixelBox> read_by_others(const TickRecord& tick,
-                                                       const SessionParameters& parameters,
-                                                       const BumpMap* bump) override {
-        std::vector<PixelBox> read;
+    [[nodiscard]] std::vector<SurfaceRead> read_by_others(const TickRecord& tick,
+                                                          const SessionParameters& parameters,
+                                                          const BumpMap* bump) override {
+        std::vector<SurfaceRead> read;
         for (const Algorithm algorithm : all_algorithms()) {
             RecordedRun& run = runs_[static_cast<std::size_t>(algorithm)];
             TouchParameters touch = parameters.touch;

@@ -173,11 +173,11 @@ TEST_CASE("the session says what it is, its schema, its units and the facts it w
     };
     CHECK(fact("program") == "dibhr 0.1.0");
     CHECK(fact("device") == "mouse'); DROP TABLE tick");
-    CHECK(fact("schema_version") == "3");
+    CHECK(fact("schema_version") == "4");
     CHECK(fact("complete") == "1");
     CHECK(fact("units").find("newtons") != std::string::npos);
     CHECK(answer(folder.file(), "PRAGMA application_id") == std::to_string(0x64686170));
-    CHECK(answer(folder.file(), "PRAGMA user_version") == "3");
+    CHECK(answer(folder.file(), "PRAGMA user_version") == "4");
     // Every column of tick is explained, and nothing else is.
     CHECK(answer(folder.file(),
                  "SELECT count(*) FROM pragma_table_info('tick') JOIN tick_column USING (name)") ==

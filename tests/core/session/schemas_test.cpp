@@ -172,7 +172,8 @@ TEST_CASE("a session of a schema to come is read as far as it is understood", "[
     SECTION("with nothing new") {
         REQUIRE(change(folder.file(), next));
         CHECK(contains(Session(folder.file()).warning(),
-                       "by a newer dibhr (format 4, this one reads 3)"));
+                       "by a newer dibhr (format " + std::to_string(kSessionSchemaVersion + 1) +
+                           ", this one reads " + std::to_string(kSessionSchemaVersion) + ")"));
         CHECK(
             contains(Session(folder.file()).warning(), "no table or column of it is unknown here"));
     }
