@@ -174,6 +174,7 @@ class Viewer {
     void take_kiosk_keys(const WindowInput& input);
     void follow_kiosk(const WindowInput& input);
     void show_in_kiosk(std::size_t number);
+    [[nodiscard]] bool text_opens() const;
     void show_next_in_kiosk();
     void pass_over_in_kiosk();
     void perform_in_kiosk(KioskCommand command);

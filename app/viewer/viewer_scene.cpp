@@ -127,7 +127,7 @@ bool Viewer::draw_if_changed(const WindowInput& input) {
 /// Lays out all panels, for Gui::draw(). `drawn` must exist until then: it is called when all is
 /// drawn that saved pictures contain.
 void Viewer::lay_out_panels(std::span<const KeyPress> pressed, const std::function<void()>& drawn) {
-    gui_.begin(pressed);
+    gui_.begin(pressed, text_opens());
     panes_.show(shown_, state_);
     draw_panes(state_);
     const glm::ivec2 viewport = relief_viewport();
