@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@
 #include "core/estimate/estimate_watch.hpp"
 #include "core/haptics/enum_names.hpp"
 #include "core/haptics/explanation.hpp"
+#include "core/video/guide/regions.hpp"
 
 namespace dibhr {
 
@@ -162,12 +164,13 @@ struct Ruler {
 };
 
 /// What a brush paints on the relief, in the order of the panel.
-enum class BrushLayer { material, stiffness, friction, height, nothing };
-inline constexpr std::array<NamedValue<BrushLayer>, 5> kBrushLayerNames{
+enum class BrushLayer { material, stiffness, friction, height, region, nothing };
+inline constexpr std::array<NamedValue<BrushLayer>, 6> kBrushLayerNames{
     {{BrushLayer::material, "material", "Material"},
      {BrushLayer::stiffness, "stiffness", "Stiffness"},
      {BrushLayer::friction, "friction", "Friction"},
      {BrushLayer::height, "height", "Height"},
+     {BrushLayer::region, "region", "Region: a name"},
      {BrushLayer::nothing, "nothing", "Nothing: erase"}}};
 static_assert(has_all_in_order(kBrushLayerNames, BrushLayer::nothing));
 
@@ -178,8 +181,10 @@ struct Brush {
     double stiffness_newton_per_mm{1.0};
     double friction{0.8};
     double height_px{8.0};
-    double width{0.08};        ///< of the picture's width
-    double strength{1.0};      ///< 0 .. 1
+    TextField region_name{}, region_text{};    ///< of the one that is painted
+    std::shared_ptr<const Regions> regions{};  ///< of the recording; null: none
+    double width{0.08};                        ///< of the picture's width
+    double strength{1.0};                      ///< 0 .. 1
     int scrolls{0};            ///< pictures left in which the panel scrolls into view
     std::vector<Vec3> ring{};  ///< its edge on the relief; empty: the pointer is elsewhere
     std::string refusal{};     ///< why painting is not possible; empty: it is

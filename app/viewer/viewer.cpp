@@ -89,7 +89,7 @@ Viewer::Viewer(const ViewOptions& options, OpeningWindow& opening, ViewerParts p
         clip_.start(options.clip, ClipNameConflict::replaces, options.pictures_of);
     OpenedFiles& files = parts.files;
     if (files.session) {
-        replay_session(std::move(files.session));
+        replay_session(std::move(files.session), files.guide);
         SessionPlayer& replay = *replay_.player();
         apply_play_options(options, replay.playback().begin_s, replay);
         if (options.open.at_s > 0.0) replay.seek(replay.playback().begin_s + options.open.at_s);

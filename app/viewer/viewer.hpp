@@ -209,7 +209,7 @@ class Viewer {
     void keep_memory();
     void apply_memory(const FileMemory& memory, const OpenRequest& request);
     void forget_relief();
-    void replay_session(std::unique_ptr<OpenedSession> session);
+    void replay_session(std::unique_ptr<OpenedSession> session, const FoundGuide& guide);
     void keep_recent(const RecentFile& opened);
     void show_title(const std::filesystem::path& file);
     /// The user's choices, without values that media or a replay have set.

@@ -201,6 +201,7 @@ void Viewer::move_hand(const WindowInput& input) {
     shown_ = state_.touch.replay ? replay_.shown() : touch_.frames_now();
     use_clicks(input.clicks, input.wheel_steps);
     guide_.follow(shown_, now_s(), state_);
+    if (!state_.touch.replay) guide_.show(painting_.regions(), state_);
     if (!state_.touch.replay) guide_.follow_ridges(shown_, state_, painting_, touch_.player());
 }
 
