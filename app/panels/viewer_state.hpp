@@ -209,6 +209,22 @@ struct RegionShown {
     bool rests{false};   ///< the finger rested on it: its text is shown, too
 };
 
+/// What the first start shows a person to do.
+enum class LeadStep {
+    press,   ///< on one place of the relief
+    stroke,  ///< along a way on it
+    choose   ///< a material on the Touch panel
+};
+
+struct LeadShown {
+    LeadStep step{LeadStep::press};
+    std::vector<Vec3> places{};     ///< on the relief: the place, or the way
+    std::array<float, 4> button{};  ///< on the panel: left, top, right, bottom [px]; 0: not drawn
+    double time_s{0.0};             ///< since the step's begin, ten times a second
+    bool done{false};               ///< the person has done it
+    std::string words{};            ///< for those who do not see it
+};
+
 /// The window stands where visitors touch it: no panels, two large buttons.
 struct KioskShown {
     bool has_next{false};    ///< there are several recordings
@@ -227,6 +243,7 @@ struct UiState {
     RegionShown region{};
     std::optional<KioskShown> kiosk{};  ///< nothing: the window is as usual
     std::string caption{};              ///< of the recording at the shown moment; empty: none
+    std::optional<LeadShown> lead{};    ///< nothing: nobody is led
     PanesShown panes{};
     std::optional<Ruler> ruler{};  ///< nothing: off
     Brush brush{};
@@ -242,6 +259,7 @@ struct UiState {
     bool touched{false};  ///< there was a contact: the first hint is not needed any more
 
     bool show_paint{false};    ///< brush switched on by key: scroll the Paint panel into view
+    bool show_touch{false};    ///< a material is to be chosen: scroll the Touch panel into view
     bool show_session{false};  ///< recording begun by key: scroll the Session panel into view
     bool help_open{false};
     std::string message{};              ///< shown in a box until a person closes it

@@ -116,6 +116,8 @@ Viewer::Viewer(const ViewOptions& options, OpeningWindow& opening, ViewerParts p
                files.guide);
     if (!options.record.empty() && live) touch_.recording().start_live(options.record);
     apply_play_options(options, 0.0, touch_.player());
+    if (options.may_lead() && touch_.by_mouse() && is_sample(state_.media.colour_path))
+        lead_.begin(guide_.regions(), state_, save_queue_);
 }
 
 Viewer::~Viewer() {
@@ -361,7 +363,7 @@ void Viewer::log_messages() {
 
 void Viewer::speak() {
     const Spoken now = spoken_of(state_, now_s());
-    if (const auto trouble = speaking_.follow(now, state_.settings.speak)) {
+    if (const auto trouble = speaking_.follow(now, now_s(), state_.settings.speak)) {
         print_warning(*trouble);
         if (state_.ui.kiosk)
             state_.ui.kiosk->can_repeat = false;

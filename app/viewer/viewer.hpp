@@ -28,6 +28,7 @@
 #include "app/viewer/explaining.hpp"
 #include "app/viewer/files.hpp"
 #include "app/viewer/guide/guide.hpp"
+#include "app/viewer/guide/lead.hpp"
 #include "app/viewer/guide/speaking.hpp"
 #include "app/viewer/input.hpp"
 #include "app/viewer/key_hand.hpp"
@@ -99,6 +100,10 @@ struct ViewOptions {
     [[nodiscard]] bool asks_nobody() const {
         return full_screen || seconds.has_value() || (!clip.empty() && !looping.value_or(true));
     }
+    /// Whether a person may be shown at the first start what to do: nothing else is asked for.
+    [[nodiscard]] bool may_lead() const {
+        return !asks_nobody() && !kiosk && screenshot.empty() && clip.empty();
+    }
 };
 
 /// The files of the command line.
@@ -169,12 +174,12 @@ class Viewer {
     [[nodiscard]] std::optional<OpeningShown> opening_shown() const;
     void follow_live();
     [[nodiscard]] bool keys_are_text() const;
+    [[nodiscard]] bool text_opens() const;
     [[nodiscard]] HandKeys hand_keys() const;
     void take_keys(const WindowInput& input);
     void take_kiosk_keys(const WindowInput& input);
     void follow_kiosk(const WindowInput& input);
     void show_in_kiosk(std::size_t number);
-    [[nodiscard]] bool text_opens() const;
     void show_next_in_kiosk();
     void pass_over_in_kiosk();
     void perform_in_kiosk(KioskCommand command);
@@ -228,6 +233,7 @@ class Viewer {
     void use_material(const std::string& name);
     void keep_material(const std::string& name);
     void start_or_stop_recording();
+    void begin_next_recording();
     void start_or_stop_clip(PictureOf of);
     [[nodiscard]] bool wants_picture(PictureOf of) const;
     [[nodiscard]] bool video_runs() const;
@@ -297,12 +303,14 @@ class Viewer {
     ViewerPanes panes_{};
     ViewerPainting painting_;
     ViewerGuide guide_;
+    ViewerLead lead_{};
     ViewerSpeaking speaking_{};
     TaskQueue save_queue_;  // writes settings, file memories, recent files
     SettingsSaver settings_saver_;
     DepthBlend shown_{};  // the frames of this turn
     PictureChange change_{};
     bool video_held_{false};       // by hold_unseen_video()
+    bool record_next_{false};      // a recording begins once the last one is finished
     std::size_t kiosk_at_{0};      // the recording that was asked for last; 0: the first one
     std::size_t kiosk_passed_{0};  // recordings one after the other that could not be opened
     double kiosk_used_s_{0.0};     // when somebody last touched

@@ -34,6 +34,7 @@ HandKeys Viewer::hand_keys() const {
 
 void Viewer::take_keys(const WindowInput& input) {
     if (options_.kiosk) return take_kiosk_keys(input);
+    if (!input.keys.empty()) lead_.end(state_);
     const bool in_list = gui_.list_is_open();
     const bool typing = keys_are_text();
     const std::vector<int> held = state_.keys.held_keys(Action::show_as_recorded);
@@ -200,8 +201,9 @@ void Viewer::perform(Action action) {
 void Viewer::move_hand(const WindowInput& input) {
     shown_ = state_.touch.replay ? replay_.shown() : touch_.frames_now();
     use_clicks(input.clicks, input.wheel_steps);
-    guide_.follow(shown_, now_s(), state_);
     if (!state_.touch.replay) guide_.show(painting_.regions(), state_);
+    guide_.follow(shown_, now_s(), state_);
+    lead_.follow(shown_, now_s(), state_);
     if (!state_.touch.replay) guide_.follow_ridges(shown_, state_, painting_, touch_.player());
 }
 

@@ -138,6 +138,7 @@ void Viewer::take_desktop_answer() {
 
 void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request,
                         const FileMemory& memory, FoundMaps maps, const FoundGuide& guide) {
+    lead_.end(state_);
     explaining_.end(state_, camera_);
     // A recording's video would lack these frames: end it. A waiting one goes on below.
     const bool live = media->description().live;
@@ -249,6 +250,7 @@ void Viewer::forget_relief() {
 }
 
 void Viewer::replay_session(std::unique_ptr<OpenedSession> session, const FoundGuide& guide) {
+    lead_.end(state_);
     painting_.flush_maps(touch_.recording());
     if (touch_.recording().active_or_waiting()) show_notice(touch_.recording().stop());
     for (const std::string& warning : {session->session.warning(), session->frames.warning})
