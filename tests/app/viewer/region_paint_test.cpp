@@ -112,10 +112,8 @@ TEST_CASE("regions side by side are tinted apart and what has no name is as it w
     }
 }
 
-TEST_CASE(
-    "a region that is named and painted in the window is touched by its name and kept and "
-    "replayed",
-    "[regions]") {
+TEST_CASE("a region that is named and painted in the window is touched by its name and kept",
+          "[regions]") {
     const Desk desk;
     const TemporaryFolder folder;
     write_depth_png(folder / "cup_depth.png", kWide, kHigh, 120);
