@@ -25,6 +25,7 @@ void open_named(const ViewOptions& options, OpenedFiles& files) {
         files.session = std::make_unique<OpenedSession>(options.open.colour, options.any_media,
                                                         options.surfaces);
         files.warnings = {files.session->session.warning(), files.session->frames.warning};
+        files.guide = find_guide(files.session->frames.description);
         return;
     }
     files.media = open_request(options.open);

@@ -63,6 +63,7 @@ struct ReadFolder {
 struct CompleteTyped {
     std::string typed{};  ///< in the Open dialog
 };
+struct SkipLead {};  ///< the person needs none
 enum class KioskCommand { next, say_again };
 struct MakeReport {
     std::filesystem::path session{};
@@ -75,8 +76,8 @@ using WindowCommand =
     std::variant<Action, OpenRequest, DepthStatement, DepthOfferCommand, TypedFile, SaveSidecar,
                  LoadBump, UseMaterial, KeepMaterial, UseFirmware, AgreeToDevice,
                  AnswerUnsafeSettings, AnswerDepth, RemovePaint, MarkMoment, ReplayAsRecorded,
-                 LeaveReplay, ReadFolder, CompleteTyped, KioskCommand, MakeReport,
-                 PrepareRecording>;
+                 LeaveReplay, ReadFolder, CompleteTyped, KioskCommand, MakeReport, PrepareRecording,
+                 SkipLead>;
 
 /// A visitor of lambdas.
 template <typename... Visit>

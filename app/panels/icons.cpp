@@ -141,6 +141,12 @@ void draw_icon(ImDrawList& list, Icon icon, ImVec2 centre, float r, ImU32 colour
         case Icon::clip:
             draw_camera(list, centre, r, colour);
             break;
+        case Icon::close:
+            list.AddLine({centre.x - r * 0.7F, centre.y - r * 0.7F},
+                         {centre.x + r * 0.7F, centre.y + r * 0.7F}, colour, r * 0.28F);
+            list.AddLine({centre.x - r * 0.7F, centre.y + r * 0.7F},
+                         {centre.x + r * 0.7F, centre.y - r * 0.7F}, colour, r * 0.28F);
+            break;
     }
 }
 

@@ -17,7 +17,8 @@ enum class Icon {
     explain,
     paint,
     ruler,
-    clip
+    clip,
+    close
 };
 
 /// Draws it within `r` pixels around `centre`.

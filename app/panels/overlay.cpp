@@ -286,39 +286,58 @@ float draw_legend(const ViewerState& state, float margin) {
     return low.x;
 }
 
+/// The left edge of a label of that height: beside the toolbar, where it would be under it.
+float left_of_label(const ViewerState& state, float margin, float top, float height) {
+    const auto tools = toolbar_place(state);
+    const bool beside = tools && top + height > tools->top && top < tools->bottom;
+    return beside ? tools->right + 0.5F * margin : margin;
+}
+
 /// One label below the other, up to `right` and down to the bar; lines without room are left out.
 /// Labels that appear by themselves are the last. The banner is below the text on the touch.
 void draw_upper_left(const ViewerState& state, float margin, float right) {
+    constexpr float kMostRegion = 5.0F;  // rows of a region's name and text
+    const float row = ImGui::GetFrameHeight();
     ImVec2 low{margin, panes_height(state) + margin};
-    const float widest = right - 2.0F * margin;
     const float bottom = bar_top(state);
-    const auto add = [&low, widest, bottom](std::string text) {
+    const auto make_room = [&](float height) {
+        low.x = left_of_label(state, margin, low.y, height);
+        return right - low.x - margin;  // the widest
+    };
+    const auto add = [&](std::string text) {
+        const float widest = make_room(label_size(text, right - 2.0F * margin).y);
         while (low.y + label_size(text, widest).y > bottom) {
             const std::size_t last = text.rfind('\n');
             if (last == std::string::npos) return;
             text.resize(last);
         }
-        low.y += label(text, low, 1.0F, widest) + 0.3F * ImGui::GetFrameHeight();
+        low.y += label(text, low, 1.0F, widest) + 0.3F * row;
     };
     if (state.touch.replay) add(replay_text(*state.touch.replay));
     const std::string touch = touch_text(state);
     const bool as_usual = touch == kTouching || touch == kFree;
     if (!as_usual || (state.ui.region.name.empty() && !state.ui.kiosk)) add(touch);
-    low.y += draw_region(state, low, widest);
+    const float widest_region = make_room(kMostRegion * row);
+    low.y += draw_region(state, low, widest_region);
     if (const std::string banner = banner_of(state); !banner.empty())
-        low.y = draw_banner(state, banner) + 0.3F * ImGui::GetFrameHeight();
+        low.y = draw_banner(state, banner) + 0.3F * row;
     if (state.touch.recording) {
+        make_room(row);
         red_dot_label(*ImGui::GetBackgroundDrawList(),
                       "Recording   " + clock_text(state.touch.recording->time_s), low);
-        low.y += 1.3F * ImGui::GetFrameHeight();
+        low.y += 1.3F * row;
     }
-    if (!state.touch.others.empty() && state.touch.haptic.touchable && !state.ui.explained)
-        low.y += draw_algorithms(side_by_side(state), low) + 0.3F * ImGui::GetFrameHeight();
+    if (!state.touch.others.empty() && state.touch.haptic.touchable && !state.ui.explained) {
+        const auto lines = side_by_side(state);
+        make_room(static_cast<float>(lines.size()) * row);
+        low.y += draw_algorithms(lines, low) + 0.3F * row;
+    }
     if (state.ui.statistics) add(statistics_text(state));
     if (state.ui.ruler && !state.ui.explained) add(ruler_text(state));
     const bool inspects = state.ui.statistics || state.ui.ruler || shows_panes(state) ||
                           depth_colours(state.settings.relief_style.paint);
-    if (inspects && state.ui.under_pointer && !state.ui.explained) add(pointer_text(state, widest));
+    if (inspects && state.ui.under_pointer && !state.ui.explained)
+        add(pointer_text(state, make_room(row)));
     if (state.touch.catching_up) add("Catching up");
 }
 
@@ -369,8 +388,9 @@ void draw_over_pictures(const ViewerState& state, const std::function<void()>& d
     if (!state.ui.clip) return;
     const float margin = 12.0F * state.ui.scale;
     constexpr float kLinesAboveBar = 4.4F;  // hints and notices are below
-    const ImVec2 low{margin, bar_top(state) - kLinesAboveBar * ImGui::GetFrameHeight()};
-    red_dot_label(list, clip_text(state), low);
+    const float row = ImGui::GetFrameHeight();
+    const float top = bar_top(state) - kLinesAboveBar * row;
+    red_dot_label(list, clip_text(state), {left_of_label(state, margin, top, row), top});
 }
 
 void draw_hint(const ViewerState& state, Hint hint, float alpha) {

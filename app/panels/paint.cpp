@@ -1,6 +1,8 @@
 // The Paint panel: what a brush paints on the relief and how, undo and redo; and the brush's edge.
 #include <algorithm>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "app/panels/panels.hpp"
 #include "app/panels/relief_screen.hpp"
@@ -30,6 +32,37 @@ void draw_material_row(ViewerState& state) {
         brush.material = all[static_cast<std::size_t>(chosen)];
 }
 
+void set_text(TextField& field, const std::string& text) {
+    field.fill('\0');
+    std::copy_n(text.data(), std::min(text.size(), field.size() - 1), field.data());
+}
+
+/// The region that is painted: one of those there are, or a new one.
+void draw_region_rows(ViewerState& state) {
+    Brush& brush = state.ui.brush;
+    if (brush.regions) {
+        std::vector<const char*> names;
+        for (const Region& region : brush.regions->regions) names.push_back(region.name.c_str());
+        names.push_back("A new one");
+        const auto at =
+            std::find(names.begin(), names.end() - 1, std::string_view(brush.region_name.data()));
+        const int fresh = static_cast<int>(names.size()) - 1;
+        int chosen = static_cast<int>(at - names.begin());
+        if (index_row("Region", names, chosen, "One that there is, to paint more of it", fresh)) {
+            const Region region = chosen == fresh
+                                      ? Region{}
+                                      : brush.regions->regions[static_cast<std::size_t>(chosen)];
+            set_text(brush.region_name, region.name);
+            set_text(brush.region_text, region.text);
+        }
+    }
+    text_row("Name", "Name of the region", brush.region_name,
+             "Shown and spoken where the region is touched");
+    text_row("Text", "Text on it, if any", brush.region_text,
+             "Shown and spoken once the finger rests; may be empty");
+    if (brush.region_name.front() == '\0') draw_dimmed("Give the region a name, then paint it.");
+}
+
 /// The value that the brush paints.
 void draw_value_row(ViewerState& state) {
     Brush& brush = state.ui.brush;
@@ -57,6 +90,8 @@ void draw_value_row(ViewerState& state) {
         case BrushLayer::height:
             return row("Height", "%.1f px", TouchMapKind::height, standard.height_px,
                        "On top of the depth; below 0: pressed in", brush.height_px);
+        case BrushLayer::region:
+            return draw_region_rows(state);
         case BrushLayer::nothing:
             return draw_dimmed("Erases what was painted, of every kind.");
     }
@@ -116,7 +151,7 @@ void draw_paint_panel(ViewerState& state) {
             "Paint on the sample is not kept: it is gone when another recording is opened.");
     } else {
         draw_dimmed("Kept beside the recording as " + brush.saved_as.filename().string() +
-                    " and files named like it; dibhr finds them again.");
+                    " and files named like it, regions too; dibhr finds them again.");
     }
     // To the end of the panel; the column's new height is known only a picture later.
     constexpr int kPicturesToScroll = 3;

@@ -61,6 +61,11 @@ void draw_panel_column(ViewerState& state, Transport& transport);
 /// measure, save a clip. Hidden with the panels, while an update is explained, and where there is
 /// no room.
 void draw_toolbar(ViewerState& state);
+/// Where it is in the window [px]; nothing: hidden.
+struct ToolbarPlace {
+    float left{0.0F}, top{0.0F}, right{0.0F}, bottom{0.0F};
+};
+[[nodiscard]] std::optional<ToolbarPlace> toolbar_place(const ViewerState& state);
 
 /// The height of the bar under the relief [px].
 [[nodiscard]] float bottom_bar_height(const ViewerState& state);
@@ -91,6 +96,10 @@ void draw_brush(const ViewerState& state, const glm::dmat4& clip_from_grid);
 
 /// Over the relief: the force in numbers, notices; `now_s` counts from the start.
 void draw_overlay(const ViewerState& state, double now_s);
+
+/// Shows a person at the first start what to do: marks over all, and a way to skip it, if
+/// somebody is led. `clip_from_grid` is the relief's camera.
+void draw_lead(ViewerState& state, const glm::dmat4& clip_from_grid);
 
 /// Shows that a clip is made. `drawn` is called in Gui::end(), when all but this label is drawn; it
 /// must exist until then.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "app/panels/panels.hpp"
@@ -14,6 +15,11 @@ namespace {
 constexpr ImGuiWindowFlags kBehindOthers =
     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoFocusOnAppearing;
 constexpr float kSide = 1.45F;  // of a button, as a multiple of a row's height
+constexpr int kTools = 7;
+
+float side_of_tool() {
+    return std::round(kSide * ImGui::GetFrameHeight());
+}
 
 struct Tool {
     Icon icon;
@@ -23,7 +29,7 @@ struct Tool {
 };
 
 /// What each does now: the first picture of two, and whether it is on.
-std::array<Tool, 7> tools_of(const ViewerState& state) {
+std::array<Tool, kTools> tools_of(const ViewerState& state) {
     const bool plays = state.play_state().playing;
     const bool records = state.touch.recording.has_value();
     return {
@@ -42,25 +48,32 @@ std::array<Tool, 7> tools_of(const ViewerState& state) {
 
 }  // namespace
 
-void draw_toolbar(ViewerState& state) {
+std::optional<ToolbarPlace> toolbar_place(const ViewerState& state) {
     const ImGuiStyle& style = ImGui::GetStyle();
-    const auto tools = tools_of(state);
-    const float side = std::round(kSide * ImGui::GetFrameHeight());
+    const float side = side_of_tool();
     const float pad = style.FramePadding.y;
-    const auto count = static_cast<float>(tools.size());
-    const float height = count * side + (count - 1.0F) * pad + 2.0F * pad;
-    const float top = panes_height(state) + 3.0F * ImGui::GetFrameHeight();  // below the texts
-    const float room = ImGui::GetIO().DisplaySize.y - bottom_bar_height(state) - top;
-    if (!state.settings.panels_visible || state.ui.explained || height > room) return;
-    ImGui::SetNextWindowPos({style.WindowPadding.x * 0.5F, top + 0.5F * (room - height)});
-    ImGui::SetNextWindowSize({side + 2.0F * pad, height});
+    const float height = kTools * side + (kTools - 1) * pad + 2.0F * pad;
+    const float first = panes_height(state) + 3.0F * ImGui::GetFrameHeight();  // below the texts
+    const float room = ImGui::GetIO().DisplaySize.y - bottom_bar_height(state) - first;
+    if (!state.settings.panels_visible || state.ui.explained || height > room) return std::nullopt;
+    const float left = style.WindowPadding.x * 0.5F;
+    const float top = first + 0.5F * (room - height);
+    return ToolbarPlace{left, top, left + side + 2.0F * pad, top + height};
+}
+
+void draw_toolbar(ViewerState& state) {
+    const auto place = toolbar_place(state);
+    if (!place) return;
+    const float pad = ImGui::GetStyle().FramePadding.y;
+    ImGui::SetNextWindowPos({place->left, place->top});
+    ImGui::SetNextWindowSize({place->right - place->left, place->bottom - place->top});
     ImGui::SetNextWindowBgAlpha(0.85F);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, pad});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {pad, pad});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 2.0F * style.FrameRounding);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 2.0F * ImGui::GetStyle().FrameRounding);
     ImGui::Begin("Tools", nullptr, kBareWindow | kBehindOthers);
     ImGui::PopStyleVar(3);
-    for (const Tool& tool : tools) {
+    for (const Tool& tool : tools_of(state)) {
         const std::string help = tool.help + state.keys.in_brackets(tool.action);
         const std::string id(job_of(tool.action).name);
         if (icon_button(id.c_str(), tool.icon, help.c_str(), tool.lit, kSide))

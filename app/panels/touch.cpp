@@ -83,6 +83,8 @@ void draw_stability(ViewerState& state) {
              "How much of the energy that rendering adds is taken out");
 }
 
+constexpr const char* kLedTo = "bark";  // at the first start
+
 /// A button of the row of materials, lit if it is the chosen one; on a new line if the row is full.
 void draw_material(ViewerState& state, const std::string& name, const char* help) {
     const std::string label = display_name(name.empty() ? std::string(kAsRecorded) : name);
@@ -96,6 +98,11 @@ void draw_material(ViewerState& state, const std::string& name, const char* help
     if (item::button(label.c_str()))
         state.commands.push(UseMaterial{name.empty() ? std::string(kAsRecorded) : name});
     ImGui::PopStyleColor();
+    if (state.ui.lead && name == kLedTo && ImGui::IsItemVisible()) {
+        const ImVec2 low = ImGui::GetItemRectMin();
+        const ImVec2 high = ImGui::GetItemRectMax();
+        state.ui.lead->button = {low.x, low.y, high.x, high.y};
+    }
     add_tooltip(help);
 }
 
@@ -198,7 +205,7 @@ void draw_game_pad(ViewerState& state) {
 }  // namespace
 
 void draw_touch_panel(ViewerState& state) {
-    if (!section(state, "Touch", state.settings.panels.touch)) return;
+    if (!section(state, "Touch", state.settings.panels.touch, &state.ui.show_touch)) return;
     ImGui::PushID("touch");
     draw_origin(state);
     draw_materials(state);

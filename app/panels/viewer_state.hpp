@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@
 #include "core/estimate/estimate_watch.hpp"
 #include "core/haptics/enum_names.hpp"
 #include "core/haptics/explanation.hpp"
+#include "core/video/guide/regions.hpp"
 
 namespace dibhr {
 
@@ -162,12 +164,13 @@ struct Ruler {
 };
 
 /// What a brush paints on the relief, in the order of the panel.
-enum class BrushLayer { material, stiffness, friction, height, nothing };
-inline constexpr std::array<NamedValue<BrushLayer>, 5> kBrushLayerNames{
+enum class BrushLayer { material, stiffness, friction, height, region, nothing };
+inline constexpr std::array<NamedValue<BrushLayer>, 6> kBrushLayerNames{
     {{BrushLayer::material, "material", "Material"},
      {BrushLayer::stiffness, "stiffness", "Stiffness"},
      {BrushLayer::friction, "friction", "Friction"},
      {BrushLayer::height, "height", "Height"},
+     {BrushLayer::region, "region", "Region: a name"},
      {BrushLayer::nothing, "nothing", "Nothing: erase"}}};
 static_assert(has_all_in_order(kBrushLayerNames, BrushLayer::nothing));
 
@@ -178,8 +181,10 @@ struct Brush {
     double stiffness_newton_per_mm{1.0};
     double friction{0.8};
     double height_px{8.0};
-    double width{0.08};        ///< of the picture's width
-    double strength{1.0};      ///< 0 .. 1
+    TextField region_name{}, region_text{};    ///< of the one that is painted
+    std::shared_ptr<const Regions> regions{};  ///< of the recording; null: none
+    double width{0.08};                        ///< of the picture's width
+    double strength{1.0};                      ///< 0 .. 1
     int scrolls{0};            ///< pictures left in which the panel scrolls into view
     std::vector<Vec3> ring{};  ///< its edge on the relief; empty: the pointer is elsewhere
     std::string refusal{};     ///< why painting is not possible; empty: it is
@@ -204,6 +209,22 @@ struct RegionShown {
     bool rests{false};   ///< the finger rested on it: its text is shown, too
 };
 
+/// What the first start shows a person to do.
+enum class LeadStep {
+    press,   ///< on one place of the relief
+    stroke,  ///< along a way on it
+    choose   ///< a material on the Touch panel
+};
+
+struct LeadShown {
+    LeadStep step{LeadStep::press};
+    std::vector<Vec3> places{};     ///< on the relief: the place, or the way
+    std::array<float, 4> button{};  ///< on the panel: left, top, right, bottom [px]; 0: not drawn
+    double time_s{0.0};             ///< since the step's begin, ten times a second
+    bool done{false};               ///< the person has done it
+    std::string words{};            ///< for those who do not see it
+};
+
 /// The window stands where visitors touch it: no panels, two large buttons.
 struct KioskShown {
     bool has_next{false};    ///< there are several recordings
@@ -222,6 +243,7 @@ struct UiState {
     RegionShown region{};
     std::optional<KioskShown> kiosk{};  ///< nothing: the window is as usual
     std::string caption{};              ///< of the recording at the shown moment; empty: none
+    std::optional<LeadShown> lead{};    ///< nothing: nobody is led
     PanesShown panes{};
     std::optional<Ruler> ruler{};  ///< nothing: off
     Brush brush{};
@@ -237,6 +259,7 @@ struct UiState {
     bool touched{false};  ///< there was a contact: the first hint is not needed any more
 
     bool show_paint{false};    ///< brush switched on by key: scroll the Paint panel into view
+    bool show_touch{false};    ///< a material is to be chosen: scroll the Touch panel into view
     bool show_session{false};  ///< recording begun by key: scroll the Session panel into view
     bool help_open{false};
     std::string message{};              ///< shown in a box until a person closes it

@@ -371,6 +371,7 @@ void add_tooltip(const std::string& text, const KeyTable& keys, Action action) {
 void add_tooltip(const char* text) {
     const bool wanted = item::keyboard_is_on() ? item::has_keyboard() : ImGui::IsItemHovered();
     if (*text == '\0' || !wanted) return;
+    if (item::keyboard_is_on()) KeyboardFocus::current()->explain(text);
     place_next_tooltip();
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * kTooltip_em);

@@ -51,6 +51,7 @@ SpeechFunctions functions_of(const std::string& library) {
 struct Saying {
     std::uint64_t number{0};
     std::string text{};
+    bool next{false};  ///< after the one before, which is not broken off
 
     bool operator==(const Saying&) const = default;
 };
@@ -64,7 +65,7 @@ class Speaker::Work {
     void run() {
         constexpr double kLong_s = 3600.0;
         while (const std::optional<Saying> saying = control.wait()) {
-            speak(saying->text);
+            speak(*saying);
             while (control.unchanged_for(*saying, kLong_s)) {
             }
         }
@@ -83,9 +84,10 @@ class Speaker::Work {
     WorkerControl<Saying> control{};
 
   private:
-    void speak(const std::string& text) {
+    void speak(const Saying& saying) {
+        const std::string& text = saying.text;
         if (gave_up_ || !connect()) return;
-        functions_.cancel(connection_);
+        if (!saying.next) functions_.cancel(connection_);
         if (text.empty() || functions_.say(connection_, kPriorityText, text.c_str()) >= 0) return;
         functions_.close(connection_);  // the daemon has ended; once more with a new one
         connection_ = nullptr;
@@ -132,6 +134,10 @@ Speaker::~Speaker() {
 
 void Speaker::say(const std::string& text) {
     work_->control.request({++said_, text});
+}
+
+void Speaker::say_next(const std::string& text) {
+    work_->control.request({++said_, text, true});
 }
 
 std::optional<std::string> Speaker::take_trouble() {

@@ -25,6 +25,8 @@ class Speaker {
 
     /// Speaks the text in place of all before, also the one that is being spoken. Empty: silence.
     void say(const std::string& text);
+    /// Speaks the text after the one that is being spoken.
+    void say_next(const std::string& text);
 
     /// Why nothing can be spoken, once, as one line with the next step.
     [[nodiscard]] std::optional<std::string> take_trouble();

@@ -186,6 +186,7 @@ OpenResult try_open(const OpenRequest& request) {
         OpenResult opened{.request = request};
         if (request.depth.empty() && is_session_file(request.colour)) {
             opened.session = std::make_unique<OpenedSession>(request.colour, false);
+            opened.guide = find_guide(opened.session->frames.description);
         } else {
             opened.media = open_request(request);
             opened.memory = memory_of(*opened.media);

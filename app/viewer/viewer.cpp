@@ -90,7 +90,7 @@ Viewer::Viewer(const ViewOptions& options, OpeningWindow& opening, ViewerParts p
         clip_.start(options.clip, ClipNameConflict::replaces, options.pictures_of);
     OpenedFiles& files = parts.files;
     if (files.session) {
-        replay_session(std::move(files.session));
+        replay_session(std::move(files.session), files.guide);
         SessionPlayer& replay = *replay_.player();
         apply_play_options(options, replay.playback().begin_s, replay);
         if (options.open.at_s > 0.0) replay.seek(replay.playback().begin_s + options.open.at_s);
@@ -117,6 +117,8 @@ Viewer::Viewer(const ViewOptions& options, OpeningWindow& opening, ViewerParts p
                files.guide);
     if (!options.record.empty() && live) touch_.recording().start_live(options.record);
     apply_play_options(options, 0.0, touch_.player());
+    if (options.may_lead() && touch_.by_mouse() && is_sample(state_.media.colour_path))
+        lead_.begin(guide_.regions(), state_, save_queue_);
 }
 
 Viewer::~Viewer() {
@@ -368,7 +370,7 @@ void Viewer::log_messages() {
 
 void Viewer::speak() {
     const Spoken now = spoken_of(state_, now_s());
-    if (const auto trouble = speaking_.follow(now, state_.settings.speak)) {
+    if (const auto trouble = speaking_.follow(now, now_s(), state_.settings.speak)) {
         print_warning(*trouble);
         if (state_.ui.kiosk)
             state_.ui.kiosk->can_repeat = false;

@@ -28,6 +28,7 @@
 #include "app/viewer/explaining.hpp"
 #include "app/viewer/files.hpp"
 #include "app/viewer/guide/guide.hpp"
+#include "app/viewer/guide/lead.hpp"
 #include "app/viewer/guide/speaking.hpp"
 #include "app/viewer/input.hpp"
 #include "app/viewer/key_hand.hpp"
@@ -100,6 +101,10 @@ struct ViewOptions {
     [[nodiscard]] bool asks_nobody() const {
         return full_screen || seconds.has_value() || (!clip.empty() && !looping.value_or(true));
     }
+    /// Whether a person may be shown at the first start what to do: nothing else is asked for.
+    [[nodiscard]] bool may_lead() const {
+        return !asks_nobody() && !kiosk && screenshot.empty() && clip.empty();
+    }
 };
 
 /// The files of the command line.
@@ -170,6 +175,7 @@ class Viewer {
     [[nodiscard]] std::optional<OpeningShown> opening_shown() const;
     void follow_live();
     [[nodiscard]] bool keys_are_text() const;
+    [[nodiscard]] bool text_opens() const;
     [[nodiscard]] HandKeys hand_keys() const;
     void take_keys(const WindowInput& input);
     void take_kiosk_keys(const WindowInput& input);
@@ -209,7 +215,7 @@ class Viewer {
     void keep_memory();
     void apply_memory(const FileMemory& memory, const OpenRequest& request);
     void forget_relief();
-    void replay_session(std::unique_ptr<OpenedSession> session);
+    void replay_session(std::unique_ptr<OpenedSession> session, const FoundGuide& guide);
     void keep_recent(const RecentFile& opened);
     void show_title(const std::filesystem::path& file);
     /// The user's choices, without values that media or a replay have set.
@@ -228,6 +234,7 @@ class Viewer {
     void use_material(const std::string& name);
     void keep_material(const std::string& name);
     void start_or_stop_recording();
+    void begin_next_recording();
     void start_or_stop_clip(PictureOf of);
     [[nodiscard]] bool wants_picture(PictureOf of) const;
     [[nodiscard]] bool video_runs() const;
@@ -298,12 +305,14 @@ class Viewer {
     ViewerPanes panes_{};
     ViewerPainting painting_;
     ViewerGuide guide_;
+    ViewerLead lead_{};
     ViewerSpeaking speaking_{};
     TaskQueue save_queue_;  // writes settings, file memories, recent files
     SettingsSaver settings_saver_;
     DepthBlend shown_{};  // the frames of this turn
     PictureChange change_{};
     bool video_held_{false};       // by hold_unseen_video()
+    bool record_next_{false};      // a recording begins once the last one is finished
     std::size_t kiosk_at_{0};      // the recording that was asked for last; 0: the first one
     std::size_t kiosk_passed_{0};  // recordings one after the other that could not be opened
     double kiosk_used_s_{0.0};     // when somebody last touched

@@ -44,7 +44,9 @@ void Viewer::carry_out_commands() {
         [this](const CompleteTyped& line) { browsing_.complete(line.typed, state_.ui.dialog); },
         [this](KioskCommand command) { perform_in_kiosk(command); },
         [this](const MakeReport& report) { make_report(report.session); },
+        [this](SkipLead) { lead_.end(state_); },
         [this](PrepareRecording) { preparing_.begin_or_cancel(state_); }};
+    begin_next_recording();
     for (const WindowCommand& command : state_.commands.take()) std::visit(carry_out, command);
 }
 
@@ -88,19 +90,27 @@ void Viewer::start_or_stop_recording() {
     } else if (recording.active_or_waiting()) {
         painting_.flush_maps(recording);
         show_notice(recording.stop());
-    } else if (recording.finishing()) {
-        show_notice("Still finishing the last recording");
-        state_.commands.push(Action::record);  // begins after it
-    } else if (!touch_.may_record()) {
-        state_.commands.push(Action::record);  // try again after the next picture
     } else {
-        attempt([&] {
-            const std::string file = new_file_name("dibhr");
-            state_.media.live ? recording.start_live(file) : recording.start(file);
-            state_.ui.show_session = true;
-            show_notice("Recording into " + file);
-        });
+        record_next_ = !record_next_;  // pressed twice: as if it had not been
+        if (recording.finishing())
+            show_notice(record_next_ ? "Finishing the last recording: the next one begins after it"
+                                     : "No other recording begins");
+        begin_next_recording();
     }
+}
+
+/// Once the last one is finished, where that was asked for meanwhile.
+void Viewer::begin_next_recording() {
+    TouchRecording& recording = touch_.recording();
+    if (state_.touch.replay) record_next_ = false;
+    if (!record_next_ || recording.finishing() || !touch_.may_record()) return;
+    record_next_ = false;
+    attempt([&] {
+        const std::string file = new_file_name("dibhr");
+        state_.media.live ? recording.start_live(file) : recording.start(file);
+        state_.ui.show_session = true;
+        show_notice("Recording into " + file);
+    });
 }
 
 void Viewer::start_or_stop_clip(PictureOf of) {
@@ -152,6 +162,7 @@ void Viewer::keep_material(const std::string& name) {
         material.sound = touch.material.sound;
         material.look = touch.material.look;
         show_notice("Kept as " + save_material(material).string());
+        painting_.forget_tints();
         state_.ui.materials = material_names();
         state_.ui.fields.material = {};
         use_material(name);

@@ -15,11 +15,15 @@ using std::chrono::steady_clock;
 /// With the dialog open keys are text, even before its field has the keyboard; with a question on
 /// the depth they answer; with a list open they are the list's.
 bool Viewer::keys_are_text() const {
-    // A field that Enter opens is typed in one or two pictures later.
-    const bool opens_field = gui_.focus().on() && gui_.in_use() &&
-                             (state_.ui.focus.kind == "slider" || state_.ui.focus.kind == "text");
-    return gui_.wants_keyboard() || opens_field || state_.ui.dialog.shown ||
+    return gui_.wants_keyboard() || text_opens() || state_.ui.dialog.shown ||
            state_.ui.depth_question.has_value() || gui_.list_is_open();
+}
+
+/// A field that Enter opens, or a dialog's, is typed in one or two pictures later.
+bool Viewer::text_opens() const {
+    const bool by_keys = gui_.focus().on() && gui_.in_use() &&
+                         (state_.ui.focus.kind == "slider" || state_.ui.focus.kind == "text");
+    return by_keys || (state_.ui.dialog.shown && state_.ui.dialog.pictures_to_focus > 0);
 }
 
 /// Of the hand by keyboard, while no panel has the keyboard.
@@ -30,6 +34,7 @@ HandKeys Viewer::hand_keys() const {
 
 void Viewer::take_keys(const WindowInput& input) {
     if (options_.kiosk) return take_kiosk_keys(input);
+    if (!input.keys.empty()) lead_.end(state_);
     const bool in_list = gui_.list_is_open();
     const bool typing = keys_are_text();
     const std::vector<int> held = state_.keys.held_keys(Action::show_as_recorded);
@@ -57,7 +62,7 @@ void Viewer::take_keys(const WindowInput& input) {
                                                           press.repeated, press.shift))
             take(*action, press.at);
     }
-    if (typing) return;
+    if (typing || text_opens()) return;
     const bool space_is_taken = gui_.focus().on() || key_hand_.on();
     for (const TypedCharacter& typed : input.characters) {
         if (typed.code == ' ' && space_is_taken) continue;
@@ -196,7 +201,9 @@ void Viewer::perform(Action action) {
 void Viewer::move_hand(const WindowInput& input) {
     shown_ = state_.touch.replay ? replay_.shown() : touch_.frames_now();
     use_clicks(input.clicks, input.wheel_steps);
+    if (!state_.touch.replay) guide_.show(painting_.regions(), state_);
     guide_.follow(shown_, now_s(), state_);
+    lead_.follow(shown_, now_s(), state_);
     if (!state_.touch.replay) guide_.follow_ridges(shown_, state_, painting_, touch_.player());
 }
 

@@ -63,7 +63,7 @@ void Viewer::take_opened() {
         if (opened->media)
             show_media(std::move(opened->media), opened->request, opened->memory,
                        std::move(opened->maps), opened->guide);
-        if (opened->session) replay_session(std::move(opened->session));
+        if (opened->session) replay_session(std::move(opened->session), opened->guide);
         if (options_.kiosk && !opened->failure.empty()) {
             print_error_line(opened->failure);
             log_.append("warning", opened->failure);
@@ -138,6 +138,7 @@ void Viewer::take_desktop_answer() {
 
 void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request,
                         const FileMemory& memory, FoundMaps maps, const FoundGuide& guide) {
+    lead_.end(state_);
     explaining_.end(state_, camera_);
     // A recording's video would lack these frames: end it. A waiting one goes on below.
     const bool live = media->description().live;
@@ -181,7 +182,7 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
         maps = {nullptr,
                 "A live source cannot be painted on: there is no file to keep the paint beside"};
     touch_.play(std::move(media),
-                painting_.begin(std::move(maps), now, remembered_file(now).empty()));
+                painting_.begin(std::move(maps), guide.regions, now, remembered_file(now).empty()));
     guide_.begin(guide, state_);
     if (!waits.empty()) attempt([&] { touch_.recording().start_live(waits); });
     if (request.at_s > 0.0) touch_.player().seek(request.at_s);
@@ -248,14 +249,15 @@ void Viewer::forget_relief() {
     relief_before_.reset();
 }
 
-void Viewer::replay_session(std::unique_ptr<OpenedSession> session) {
+void Viewer::replay_session(std::unique_ptr<OpenedSession> session, const FoundGuide& guide) {
+    lead_.end(state_);
     painting_.flush_maps(touch_.recording());
     if (touch_.recording().active_or_waiting()) show_notice(touch_.recording().stop());
     for (const std::string& warning : {session->session.warning(), session->frames.warning})
         if (!warning.empty()) show_notice(capitalised(warning));
     explaining_.end(state_, camera_);
     painting_.end(state_);
-    guide_.end(state_);
+    guide_.begin(guide, state_);
     keep_memory();
     remembered_.clear();
     state_.ui.depth_question.reset();

@@ -126,7 +126,7 @@ bool Viewer::draw_if_changed(const WindowInput& input) {
 /// Lays out all panels, for Gui::draw(). `drawn` must exist until then: it is called when all is
 /// drawn that saved pictures contain.
 void Viewer::lay_out_panels(std::span<const KeyPress> pressed, const std::function<void()>& drawn) {
-    gui_.begin(pressed);
+    gui_.begin(pressed, text_opens());
     panes_.show(shown_, state_);
     draw_panes(state_);
     const glm::ivec2 viewport = relief_viewport();
@@ -140,7 +140,8 @@ void Viewer::lay_out_panels(std::span<const KeyPress> pressed, const std::functi
     const auto fade = [](float& alpha) { alpha = std::max(0.0F, alpha - 0.03F); };
     if (state_.ui.touched) fade(hint_alpha_);
     if (pressed_deeper_) fade(wheel_hint_alpha_);
-    const bool mouse_touches = shown_.makes_surface() && !state_.touch.replay && touch_.by_mouse();
+    const bool mouse_touches =
+        shown_.makes_surface() && !state_.ui.lead && !state_.touch.replay && touch_.by_mouse();
     if (mouse_touches && state_.ui.message.empty() && !state_.ui.explained && !state_.ui.ruler &&
         !state_.ui.brush.on && !state_.ui.depth_question) {
         draw_hint(state_, Hint::touch, hint_alpha_);
@@ -161,6 +162,7 @@ void Viewer::lay_out_panels(std::span<const KeyPress> pressed, const std::functi
     draw_open_dialog(state_);
     draw_help_sheet(state_);
     draw_message_box(state_);
+    draw_lead(state_, clip_from_grid);
     draw_over_pictures(state_, drawn);
     gui_.end();
 }

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <functional>
@@ -20,6 +21,8 @@
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "app/window/gui_input.hpp"
 
 namespace dibhr {
 
@@ -184,39 +187,6 @@ void set_style(const GuiStyle& gui_style) {
     set_colours(style, gui_style.theme);
 }
 
-#if IMGUI_VERSION_NUM < 18700
-/// Keys that ImGui sees as down during this object's life.
-class LingeringKeys {
-  public:
-    explicit LingeringKeys(std::span<const KeyPress> pressed) {
-        bool* const down = ImGui::GetIO().KeysDown;
-        constexpr int kKeys = IM_ARRAYSIZE(ImGuiIO::KeysDown);
-        for (const KeyPress& press : pressed) {
-            if (press.key < 0 || press.key >= kKeys || down[press.key]) continue;
-            down[press.key] = true;
-            keys_.push_back(press.key);
-        }
-    }
-    ~LingeringKeys() {
-        for (const int key : keys_) ImGui::GetIO().KeysDown[key] = false;
-    }
-    LingeringKeys(const LingeringKeys&) = delete;
-    LingeringKeys& operator=(const LingeringKeys&) = delete;
-
-  private:
-    std::vector<int> keys_{};
-};
-#else
-/// The focus moves by Tab, not ImGui.
-void drop_tabs() {
-    ImVector<ImGuiInputEvent>& events = ImGui::GetCurrentContext()->InputEventsQueue;
-    const auto is_tab = [](const ImGuiInputEvent& event) {
-        return event.Type == ImGuiInputEventType_Key && event.Key.Key == ImGuiKey_Tab;
-    };
-    events.erase(std::remove_if(events.begin(), events.end(), is_tab), events.end());
-}
-#endif
-
 }  // namespace
 
 Gui::Gui(const Window& window, const GuiStyle& gui_style) : style_(gui_style) {
@@ -252,18 +222,41 @@ void Gui::apply(const GuiStyle& gui_style) {
     ImGui_ImplOpenGL3_CreateFontsTexture();
 }
 
-void Gui::begin(std::span<const KeyPress> pressed) {
+/// Panels are laid out in pixels of the framebuffer, as all else is. Under Wayland a screen unit
+/// may be several of them.
+void Gui::lay_out_in_pixels() {
+    ImGuiIO& io = ImGui::GetIO();
+    const ImVec2 pixels = std::exchange(io.DisplayFramebufferScale, {1.0F, 1.0F});
+    if (!(pixels.x > 0.0F && pixels.y > 0.0F)) return;  // a window without a size
+    io.DisplaySize = {std::round(io.DisplaySize.x * pixels.x),
+                      std::round(io.DisplaySize.y * pixels.y)};
+    scale_pointer(pixels, events_left_);
+}
+
+/// A field reads characters only in the picture after the one in which it gets the keyboard.
+void Gui::keep_early_text(bool text_opens) {
+    const bool reads = ImGui::GetCurrentContext()->WantTextInputNextFrame == 1;
+    const bool keeps = text_opens && !reads;
+    if (!keeps && early_text_.empty()) return;
+    for (const unsigned character : take_characters()) {
+        const bool opened_it = character == ' ' && early_text_.empty();
+        if (!opened_it) early_text_.push_back(character);
+    }
+    if (keeps) return;
+    for (const unsigned character : early_text_) ImGui::GetIO().AddInputCharacter(character);
+    early_text_.clear();
+}
+
+void Gui::begin(std::span<const KeyPress> pressed, bool text_opens) {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::GetIO().Fonts->ClearTexData();  // OpenGL has its own: 10 MB
     ImGui_ImplGlfw_NewFrame();
-#if IMGUI_VERSION_NUM < 18700
-    // This ImGui polls the keys: it would miss a key released again since the last picture.
+    lay_out_in_pixels();
     const LingeringKeys lingering(pressed);
-#else
-    static_cast<void>(pressed);  // this ImGui has a queue of key events
     drop_tabs();
-#endif
+    keep_early_text(text_opens);
     ImGui::NewFrame();
+    events_left_ = queued_events();
     focus_.begin();
     constexpr bool kFocusReturns = true;
     if (std::exchange(closes_lists_, false) && list_is_open())

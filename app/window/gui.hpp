@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "app/settings/theme.hpp"
 #include "app/window/keyboard_focus.hpp"
@@ -41,7 +42,8 @@ class Gui {
     Gui& operator=(const Gui&) = delete;
 
     /// Begins a picture; panels may be drawn until end(). `pressed`: keys since the last picture.
-    void begin(std::span<const KeyPress> pressed);
+    /// `text_opens`: a text is about to be typed in, and gets the characters that came too early.
+    void begin(std::span<const KeyPress> pressed, bool text_opens = false);
     void end();
     void draw();  ///< draws the panels, as of the last end(), into the bound framebuffer
 
@@ -67,10 +69,15 @@ class Gui {
     [[nodiscard]] float scale() const { return style_.scale; }
 
   private:
+    void lay_out_in_pixels();
+    void keep_early_text(bool text_opens);
+
     GuiStyle style_;
     Fonts fonts_{};
     bool closes_lists_{false};
     KeyboardFocus focus_{};
+    std::vector<unsigned> early_text_{};
+    int events_left_{0};  // of the last picture, not read yet
 };
 
 }  // namespace dibhr

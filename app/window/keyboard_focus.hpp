@@ -28,6 +28,7 @@ struct ItemWords {
     std::string label{};
     std::string kind{};   ///< "check box"
     std::string value{};  ///< "on"; empty: it has none
+    std::string help{};   ///< of its tooltip; empty: it has none, or it is the label
 
     bool operator==(const ItemWords&) const = default;
 };
@@ -72,6 +73,10 @@ class KeyboardFocus {
     bool add(ItemKeys keys, ImGuiID id, ImVec2 low, ImVec2 high, bool preferred = false);
     [[nodiscard]] bool has(ImGuiID id) const { return on_ && id != 0 && id == id_; }
     void describe(ItemWords words);
+    /// The tooltip of the item that was described last.
+    void explain(const std::string& help) {
+        if (help != described_.label) described_.help = help;
+    }
     [[nodiscard]] const Steps& steps() const { return steps_; }
     /// Carries out the keys and draws the frame around the item. `scale`: pixels of a layout pixel.
     void end(float scale);

@@ -40,18 +40,26 @@ FoundGuide find_guide(const MediaDescription& media) {
 }
 
 void ViewerGuide::begin(const FoundGuide& found, ViewerState& state) {
-    regions_ = found.regions;
     captions_ = found.captions;
     state.ui.caption.clear();
-    touched_ = nullptr;
     laid_ = {};
+    take(found.regions, state);
+    if (found.trouble.empty()) return;
+    std::string& message = state.ui.message;
+    message += (message.empty() ? "" : "\n\n") + found.trouble;
+}
+
+void ViewerGuide::show(const std::shared_ptr<const Regions>& regions, ViewerState& state) {
+    if (regions_ != regions) take(regions, state);
+}
+
+void ViewerGuide::take(const std::shared_ptr<const Regions>& regions, ViewerState& state) {
+    regions_ = regions;
+    touched_ = nullptr;
     versions_.clear();
     numbered_for_.reset();
     state.ui.region = {};
     state.ui.regions = regions_ ? regions_->regions.size() : 0;
-    if (found.trouble.empty()) return;
-    std::string& message = state.ui.message;
-    message += (message.empty() ? "" : "\n\n") + found.trouble;
 }
 
 void ViewerGuide::follow(const DepthBlend& shown, double now_s, ViewerState& state) {
@@ -100,11 +108,13 @@ std::uint32_t ViewerGuide::version_of(const Ridges& ridges, ViewerPainting& pain
 
 void ViewerGuide::follow_ridges(const DepthBlend& shown, const ViewerState& state,
                                 ViewerPainting& painting, Player& player) {
-    if (!regions_ || !shown.makes_surface()) return;
-    Ridges wanted{painting.painted(), {}};
-    if (state.settings.outlines) wanted.picture = regions_->picture_at(shown.nearest().media_s);
-    if (auto raised = raising_.take();
-        raised && raised->of.painted == wanted.painted && raised->of.picture && wanted.picture) {
+    if (!shown.makes_surface()) return;
+    Ridges wanted{painting.painted(), regions_, {}};
+    if (regions_ && state.settings.outlines)
+        wanted.picture = regions_->picture_at(shown.nearest().media_s);
+    if (auto raised = raising_.take(); raised && raised->of.painted == wanted.painted &&
+                                       raised->of.regions == wanted.regions && raised->of.picture &&
+                                       wanted.picture) {
         laid_ = raised->of;
         painting.feel(std::move(raised->maps), player);
     }
@@ -114,10 +124,10 @@ void ViewerGuide::follow_ridges(const DepthBlend& shown, const ViewerState& stat
     }
     if (!wanted.picture || laid_ == wanted || raising_.running()) return;
     const DepthImage& image = *shown.from->drawn();
-    raising_.start([wanted, regions = regions_, version = version_of(wanted, painting),
-                    columns = image.columns, rows = image.rows]() -> Raised {
+    raising_.start([wanted, version = version_of(wanted, painting), columns = image.columns,
+                    rows = image.rows]() -> Raised {
         TouchMaps maps =
-            with_ridges(wanted.painted.get(), *regions, *wanted.picture, columns, rows);
+            with_ridges(wanted.painted.get(), *wanted.regions, *wanted.picture, columns, rows);
         maps.version = version;
         return {wanted, std::make_shared<const TouchMaps>(std::move(maps))};
     });

@@ -36,8 +36,9 @@ class ViewerGuide {
 
     /// A recording was opened.
     void begin(const FoundGuide& found, ViewerState& state);
-    /// A session is replayed: nothing guides.
-    void end(ViewerState& state) { begin({}, state); }
+    [[nodiscard]] const std::shared_ptr<const Regions>& regions() const { return regions_; }
+    /// The regions, which may have been painted since.
+    void show(const std::shared_ptr<const Regions>& regions, ViewerState& state);
 
     /// Once a turn, after the frames of this turn are known: shows the caption, and names the
     /// region that is touched.
@@ -47,10 +48,12 @@ class ViewerGuide {
                        Player& player);
 
   private:
+    void take(const std::shared_ptr<const Regions>& regions, ViewerState& state);
     void follow_finger(const DepthBlend& shown, double now_s, ViewerState& state);
     /// What the ridges were laid over, and of which label picture they are.
     struct Ridges {
         std::shared_ptr<const TouchMaps> painted{};
+        std::shared_ptr<const Regions> regions{};
         std::optional<int> picture{};  ///< nothing: no ridges
         bool operator==(const Ridges&) const = default;
     };

@@ -28,6 +28,7 @@ std::optional<TouchMapKind> shown_kind(BrushLayer layer) {
         case BrushLayer::height:
             return TouchMapKind::height;
         case BrushLayer::material:
+        case BrushLayer::region:
         case BrushLayer::nothing:
             break;
     }
@@ -71,6 +72,37 @@ Paint paint_at(const TouchMaps& maps, const ColourImage& picture, int i, int j,
     return paint;
 }
 
+/// Neighbouring labels have colours far apart.
+glm::vec3 colour_of_region(std::uint8_t label) {
+    constexpr float kGolden = 0.618F;  // of a turn around the hues
+    const float hue = 6.0F * std::fmod(kGolden * static_cast<float>(label), 1.0F);
+    const auto part = [hue](float at) {
+        const float apart = std::abs(std::fmod(hue - at + 9.0F, 6.0F) - 3.0F);
+        return std::clamp(2.0F - apart, 0.0F, 1.0F);
+    };
+    return {part(0.0F), part(2.0F), part(4.0F)};
+}
+
+/// The picture with the paint of each of its pixels.
+template <typename PaintAt>
+ColourImage with_tint(const ColourImage& picture, const PaintAt& paint_at) {
+    ColourImage tinted = picture;
+    std::size_t at = 0;
+    for (int j = 0; j < picture.rows; ++j) {
+        for (int i = 0; i < picture.columns; ++i, at += 3) {
+            const Paint paint = paint_at(i, j);
+            if (paint.cover <= 0.0) continue;
+            for (int c = 0; c < 3; ++c) {
+                std::uint8_t& channel = tinted.rgb[at + static_cast<std::size_t>(c)];
+                const double colour = 255.0 * static_cast<double>(paint.colour[c]);
+                channel = static_cast<std::uint8_t>(
+                    std::lround(channel + kMostTint * paint.cover * (colour - channel)));
+            }
+        }
+    }
+    return tinted;
+}
+
 }  // namespace
 
 std::vector<PaintedMaterial> painted_materials() {
@@ -99,21 +131,19 @@ ColourImage with_paint(const ColourImage& picture, const TouchMaps& maps, BrushL
         const std::uint8_t* const rgb = &ramp.rgb[std::size_t{3} * (pixel->level >> 8U)];
         return {glm::vec3(rgb[0], rgb[1], rgb[2]) / 255.0F, cover_of(pixel)};
     };
-    ColourImage tinted = picture;
-    std::size_t at = 0;
-    for (int j = 0; j < picture.rows; ++j) {
-        for (int i = 0; i < picture.columns; ++i, at += 3) {
-            const Paint paint = kind ? of_value(i, j) : paint_at(maps, picture, i, j, materials);
-            if (paint.cover <= 0.0) continue;
-            for (int c = 0; c < 3; ++c) {
-                std::uint8_t& channel = tinted.rgb[at + static_cast<std::size_t>(c)];
-                const double colour = 255.0 * static_cast<double>(paint.colour[c]);
-                channel = static_cast<std::uint8_t>(
-                    std::lround(channel + kMostTint * paint.cover * (colour - channel)));
-            }
-        }
-    }
-    return tinted;
+    return with_tint(picture, [&](int i, int j) {
+        return kind ? of_value(i, j) : paint_at(maps, picture, i, j, materials);
+    });
+}
+
+ColourImage with_regions(const ColourImage& picture, const Regions& regions, int label_picture) {
+    return with_tint(picture, [&](int i, int j) -> Paint {
+        const std::uint8_t label = regions.label(
+            label_picture, static_cast<int>(std::int64_t{i} * regions.columns / picture.columns),
+            static_cast<int>(std::int64_t{j} * regions.rows / picture.rows));
+        if (label == 0) return {};
+        return {colour_of_region(label), 1.0};
+    });
 }
 
 }  // namespace dibhr

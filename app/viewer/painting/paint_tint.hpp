@@ -8,6 +8,7 @@
 #include "app/panels/viewer_state.hpp"
 #include "core/haptics/depth_image.hpp"
 #include "core/haptics/touch_maps.hpp"
+#include "core/video/guide/regions.hpp"
 
 namespace dibhr {
 
@@ -26,5 +27,8 @@ struct PaintedMaterial {
 /// tint of the one with the painted stiffness and friction, and orange where there is none.
 [[nodiscard]] ColourImage with_paint(const ColourImage& picture, const TouchMaps& maps,
                                      BrushLayer layer, std::span<const PaintedMaterial> materials);
+/// The same with a colour for each region of that label picture.
+[[nodiscard]] ColourImage with_regions(const ColourImage& picture, const Regions& regions,
+                                       int label_picture);
 
 }  // namespace dibhr

@@ -9,7 +9,9 @@
 
 #include "app/settings/material.hpp"
 #include "core/error.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/haptics/surface.hpp"
+#include "core/video/guide/regions_file.hpp"
 #include "core/video/sources/touch_map_files.hpp"
 
 namespace dibhr {
@@ -25,6 +27,15 @@ std::size_t bytes_of(const TouchMaps* maps) {
     for (const TouchMapKind kind : all_touch_map_kinds())
         bytes += maps->of(kind).pixels.size() * sizeof(TouchMap::Pixel);
     return bytes;
+}
+
+std::size_t bytes_of(const Regions* regions) {
+    return regions == nullptr ? 0 : regions->labels.size();
+}
+
+Region region_of(const Brush& brush) {
+    return {one_line(brush.region_name.data(), kMostRegionName),
+            one_line(brush.region_text.data(), kMostRegionText)};
 }
 
 /// The maps that are not empty, as PNG.
@@ -67,6 +78,8 @@ std::vector<Lay> lays_of(const Brush& brush, const TouchParameters& felt, const 
             return {{TouchMapKind::height, everywhere(brush.height_px)}};
         case BrushLayer::nothing:
             return {{TouchMapKind::stiffness}, {TouchMapKind::friction}, {TouchMapKind::height}};
+        case BrushLayer::region:
+            return {};
         case BrushLayer::material:
             break;
     }
@@ -96,14 +109,16 @@ std::shared_ptr<const TouchMaps> ViewerPainting::numbered(TouchMaps maps) {
 }
 
 std::shared_ptr<const TouchMaps> ViewerPainting::begin(FoundMaps found,
+                                                       std::shared_ptr<const Regions> regions,
                                                        const MediaDescription& media,
                                                        bool is_sample) {
     stroke_.reset();
+    region_stroke_.reset();
     const bool is_same = depth_ == media.depth_path && columns_ == media.depth_columns &&
                          rows_ == media.depth_rows && refusal_.empty();
-    felt_ = maps_;
+    felt_ = painted_.maps;
     encoded_.clear();
-    if (is_same) return maps_;
+    if (is_same) return felt_;
     depth_ = media.depth_path;
     columns_ = media.depth_columns;
     rows_ = media.depth_rows;
@@ -111,17 +126,18 @@ std::shared_ptr<const TouchMaps> ViewerPainting::begin(FoundMaps found,
     refusal_ = std::move(found.refusal);
     before_.clear();
     undone_.clear();
-    maps_.reset();
-    if (found.maps) maps_ = numbered(*found.maps);
-    if (maps_) to_write_.push_back({depth_, maps_, false});  // for recordings
-    felt_ = maps_;
-    return maps_;
+    painted_ = {nullptr, std::move(regions)};
+    if (found.maps) painted_.maps = numbered(*found.maps);
+    if (painted_.maps) to_write_.push_back({depth_, painted_});  // for recordings
+    felt_ = painted_.maps;
+    return felt_;
 }
 
 void ViewerPainting::end(ViewerState& state) {
     stroke_.reset();
+    region_stroke_.reset();
     depth_.clear();
-    maps_.reset();
+    painted_ = {};
     felt_.reset();
     before_.clear();
     undone_.clear();
@@ -135,7 +151,8 @@ void ViewerPainting::update_brush(ViewerState& state) const {
     brush.refusal = refusal_;
     brush.can_undo = !before_.empty();
     brush.can_redo = !undone_.empty();
-    brush.has_paint = maps_ != nullptr;
+    brush.has_paint = painted_.maps != nullptr;
+    brush.regions = painted_.regions;
     brush.saved_as = is_sample_ || depth_.empty() ? std::filesystem::path{}
                                                   : touch_map_file(depth_, TouchMapKind::stiffness);
 }
@@ -144,10 +161,16 @@ void ViewerPainting::use(bool pressed, const std::optional<Vec3>& under, const D
                          ViewerState& state, Player& player) {
     if (!pressed) end_stroke(state, player);
     if (!pressed || !refusal_.empty() || !shown.makes_surface()) return;
-    if (!stroke_ && under) start_stroke(shown, state, player);
-    if (!stroke_ || !under) return;
-    stroke_->go_to(*under);
-    drawn_ = std::make_shared<const TouchMaps>(stroke_->maps());
+    if (!stroke_ && !region_stroke_ && under) start_stroke(shown, state, player);
+    if (!under) return;
+    if (stroke_) {
+        stroke_->go_to(*under);
+        drawn_.maps = std::make_shared<const TouchMaps>(stroke_->maps());
+    }
+    if (region_stroke_) {
+        region_stroke_->go_to(*under);
+        drawn_.regions = std::make_shared<const Regions>(region_stroke_->regions());
+    }
 }
 
 void ViewerPainting::start_stroke(const DepthBlend& shown, ViewerState& state, Player& player) {
@@ -155,9 +178,22 @@ void ViewerPainting::start_stroke(const DepthBlend& shown, ViewerState& state, P
     const DepthImage& image = *shown.from->depth;
     if (image.columns != columns_ || image.rows != rows_) return;  // a frame of the last media
     const Brush& brush = state.ui.brush;
+    const bool of_region = brush.layer == BrushLayer::region;
+    if (of_region && brush.region_name.front() == '\0') {
+        state.ui.message = "The region has no name yet: type one on the Paint panel, then paint.";
+        return;
+    }
     try {
-        stroke_.emplace(maps_ ? *maps_ : TouchMaps{}, lays_of(brush, state.settings.touch, image),
-                        BrushTip{0.5 * brush.width * columns_, brush.strength}, columns_, rows_);
+        const double radius_px = 0.5 * brush.width * columns_;
+        drawn_ = painted_;
+        if (!of_region)
+            stroke_.emplace(painted_.maps ? *painted_.maps : TouchMaps{},
+                            lays_of(brush, state.settings.touch, image),
+                            BrushTip{radius_px, brush.strength}, columns_, rows_);
+        const bool erases = brush.layer == BrushLayer::nothing && painted_.regions;
+        if (of_region || erases)
+            region_stroke_.emplace(painted_.regions.get(), erases ? Region{} : region_of(brush),
+                                   radius_px, columns_, rows_);
     } catch (const InputError& error) {
         state.ui.message = error.what();
         state.ui.brush.on = false;
@@ -165,62 +201,77 @@ void ViewerPainting::start_stroke(const DepthBlend& shown, ViewerState& state, P
 }
 
 void ViewerPainting::end_stroke(ViewerState& state, Player& player) {
-    if (!stroke_) return;
-    before_.push_back(maps_);
+    if (!stroke_ && !region_stroke_) return;
+    Painted painted = painted_;
+    if (stroke_) {
+        TouchMaps maps = stroke_->maps();
+        for (const TouchMapKind kind : all_touch_map_kinds()) {
+            if (!maps.of(kind).covers_anything()) maps.of(kind) = {};
+        }
+        painted.maps = maps.empty() ? nullptr : numbered(std::move(maps));
+    }
+    if (region_stroke_) painted.regions = without_bare(region_stroke_->regions());
+    stroke_.reset();
+    region_stroke_.reset();
+    keep_stroke(std::move(painted), state, player);
+}
+
+/// In place of what was painted before, which can be taken back.
+void ViewerPainting::keep_stroke(Painted painted, ViewerState& state, Player& player) {
+    before_.push_back(painted_);
     undone_.clear();
     std::size_t bytes = 0;
     for (std::size_t k = before_.size(); k-- > 0;) {
-        bytes += bytes_of(before_[k].get());
+        bytes += bytes_of(before_[k].maps.get()) + bytes_of(before_[k].regions.get());
         if (bytes <= kMostUndo_bytes || k + 1 == before_.size()) continue;
         before_.erase(before_.begin(), before_.begin() + static_cast<std::ptrdiff_t>(k) + 1);
         break;
     }
-    TouchMaps painted = stroke_->maps();
-    stroke_.reset();
-    for (const TouchMapKind kind : all_touch_map_kinds()) {
-        if (!painted.of(kind).covers_anything()) painted.of(kind) = {};
-    }
-    replace_maps(painted.empty() ? nullptr : numbered(std::move(painted)), state, player);
+    replace(std::move(painted), state, player);
 }
 
-void ViewerPainting::replace_maps(std::shared_ptr<const TouchMaps> maps, ViewerState& state,
-                                  Player& player) {
-    maps_ = std::move(maps);
-    drawn_.reset();
-    encoded_.clear();
-    felt_ = maps_;
-    player.set_maps(felt_);
-    to_write_.push_back({depth_, maps_, !is_sample_});
+void ViewerPainting::replace(Painted painted, ViewerState& state, Player& player) {
+    const bool other_maps = painted.maps != painted_.maps;
+    const bool other_regions = painted.regions != painted_.regions;
+    painted_ = std::move(painted);
+    drawn_ = {};
+    if (other_maps) {
+        encoded_.clear();
+        felt_ = painted_.maps;
+        player.set_maps(felt_);
+    }
+    to_write_.push_back({depth_,
+                         {other_maps ? painted_.maps : nullptr, painted_.regions},
+                         other_maps && !is_sample_,
+                         other_regions && !is_sample_});
     update_brush(state);
 }
 
 void ViewerPainting::feel(std::shared_ptr<const TouchMaps> maps, Player& player) {
     felt_ = std::move(maps);
     player.set_maps(felt_);
-    if (felt_) to_write_.push_back({depth_, felt_, false});
+    if (felt_) to_write_.push_back({depth_, {felt_, nullptr}});
 }
 
 void ViewerPainting::undo(ViewerState& state, Player& player) {
-    if (stroke_ || before_.empty()) return;
-    undone_.push_back(maps_);
-    std::shared_ptr<const TouchMaps> maps = std::move(before_.back());
+    if (stroke_ || region_stroke_ || before_.empty()) return;
+    undone_.push_back(painted_);
+    Painted painted = std::move(before_.back());
     before_.pop_back();
-    replace_maps(std::move(maps), state, player);
+    replace(std::move(painted), state, player);
 }
 
 void ViewerPainting::redo(ViewerState& state, Player& player) {
-    if (stroke_ || undone_.empty()) return;
-    before_.push_back(maps_);
-    std::shared_ptr<const TouchMaps> maps = std::move(undone_.back());
+    if (stroke_ || region_stroke_ || undone_.empty()) return;
+    before_.push_back(painted_);
+    Painted painted = std::move(undone_.back());
     undone_.pop_back();
-    replace_maps(std::move(maps), state, player);
+    replace(std::move(painted), state, player);
 }
 
 void ViewerPainting::remove_all(ViewerState& state, Player& player) {
-    if (stroke_ || !maps_ || !refusal_.empty()) return;
-    before_.push_back(maps_);
-    undone_.clear();
-    replace_maps(nullptr, state, player);
+    if (stroke_ || region_stroke_ || !painted_.maps || !refusal_.empty()) return;
+    keep_stroke({nullptr, painted_.regions}, state, player);
 }
 
 /// Empty: not encoded yet.
@@ -235,18 +286,26 @@ void ViewerPainting::start_writing() {
     if (to_write_.empty() || writing_.running()) return;
     const ToWrite next = to_write_.front();
     to_write_.erase(to_write_.begin());
-    const bool is_last = std::none_of(
-        to_write_.begin(), to_write_.end(),
-        [&](const ToWrite& later) { return later.to_files && later.depth == next.depth; });
-    writing_.start([next, to_files = next.to_files && is_last,
-                    known = encoded_as(next.maps ? next.maps->version : 0)]() -> Written {
+    const auto is_last = [&](bool ToWrite::*to_files) {
+        return next.*to_files &&
+               std::none_of(to_write_.begin(), to_write_.end(), [&](const ToWrite& later) {
+                   return later.*to_files && later.depth == next.depth;
+               });
+    };
+    const auto& maps = next.painted.maps;
+    writing_.start([next, maps_to_files = is_last(&ToWrite::maps_to_files),
+                    regions_to_files = is_last(&ToWrite::regions_to_files),
+                    known = encoded_as(maps ? maps->version : 0)]() -> Written {
         Written written;
+        const Painted& painted = next.painted;
         try {
-            if (next.maps) {
-                written.version = next.maps->version;
-                written.encoded = known.empty() ? encoded(*next.maps) : known;
+            if (painted.maps) {
+                written.version = painted.maps->version;
+                written.encoded = known.empty() ? encoded(*painted.maps) : known;
             }
-            if (to_files) write_touch_maps(next.maps ? *next.maps : TouchMaps{}, next.depth);
+            if (maps_to_files)
+                write_touch_maps(painted.maps ? *painted.maps : TouchMaps{}, next.depth);
+            if (regions_to_files) write_regions(painted.regions.get(), next.depth);
         } catch (const std::exception& error) {
             written.failure = error.what();
         }
@@ -257,7 +316,7 @@ void ViewerPainting::start_writing() {
 void ViewerPainting::take_written(TouchRecording& recording) {
     auto written = writing_.take();
     if (!written) return;
-    if (felt_ != maps_) encoded_[written->version] = written->encoded;
+    if (felt_ != painted_.maps) encoded_[written->version] = written->encoded;
     if (written->version > 0) recording.maps(written->version, std::move(written->encoded));
     if (!written->failure.empty()) failure_ = written->failure;
 }
@@ -285,23 +344,36 @@ void ViewerPainting::finish(TouchRecording& recording, std::chrono::milliseconds
     if (!failure_.empty()) throw InputError(std::exchange(failure_, {}));
 }
 
+ViewerPainting::Painted ViewerPainting::shown() const {
+    return stroke_ || region_stroke_ ? drawn_ : painted_;
+}
+
 std::shared_ptr<const TouchMaps> ViewerPainting::drawn() const {
-    return stroke_ && drawn_ ? drawn_ : felt_;
+    return stroke_ && drawn_.maps ? drawn_.maps : felt_;
+}
+
+void ViewerPainting::forget_tints() {
+    materials_.clear();
+    tinted_of_.reset();
 }
 
 const Frame* ViewerPainting::tinted(const Frame* frame, const ViewerState& state) {
-    const std::shared_ptr<const TouchMaps> maps = stroke_ && drawn_ ? drawn_ : maps_;
+    const Painted painted = shown();
     const BrushLayer layer = state.ui.brush.layer;
-    if (!state.ui.brush.on || !maps || frame == nullptr || !frame->has_colour()) return frame;
-    const bool is_same =
-        tinted_of_ == frame->colour_object() && tinted_maps_ == maps && tinted_layer_ == layer;
+    const bool of_regions = layer == BrushLayer::region;
+    const bool nothing = of_regions ? !painted.regions : !painted.maps;
+    if (!state.ui.brush.on || nothing || frame == nullptr || !frame->has_colour()) return frame;
+    const bool is_same = tinted_of_ == frame->colour_object() && tinted_as_.maps == painted.maps &&
+                         tinted_as_.regions == painted.regions && tinted_layer_ == layer;
     if (!is_same) {
         tinted_ = {};
         if (materials_.empty()) materials_ = painted_materials();
         tinted_.colour = std::make_shared<const ColourImage>(
-            with_paint(*frame->rgb(), *maps, layer, materials_));
+            of_regions ? with_regions(*frame->rgb(), *painted.regions,
+                                      painted.regions->picture_at(frame->media_s))
+                       : with_paint(*frame->rgb(), *painted.maps, layer, materials_));
         tinted_of_ = frame->colour_object();
-        tinted_maps_ = maps;
+        tinted_as_ = painted;
         tinted_layer_ = layer;
     }
     return &tinted_;

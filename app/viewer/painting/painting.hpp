@@ -14,6 +14,7 @@
 #include "app/touching/recording.hpp"
 #include "app/viewer/painting/map_stroke.hpp"
 #include "app/viewer/painting/paint_tint.hpp"
+#include "app/viewer/painting/region_stroke.hpp"
 #include "app/viewer/task_group.hpp"
 #include "core/video/playing/player.hpp"
 
@@ -35,9 +36,10 @@ class ViewerPainting {
     ViewerPainting(const ViewerPainting&) = delete;
     ViewerPainting& operator=(const ViewerPainting&) = delete;
 
-    /// A recording was opened. Returns the maps to lay on it. For the same recording, reopened with
-    /// other depth options, these are the maps painted so far.
+    /// A recording was opened, with these regions or null. Returns the maps to lay on it. For the
+    /// same recording, reopened with other depth options, all is as painted so far.
     [[nodiscard]] std::shared_ptr<const TouchMaps> begin(FoundMaps found,
+                                                         std::shared_ptr<const Regions> regions,
                                                          const MediaDescription& media,
                                                          bool is_sample);
     /// A session is replayed: painting ends.
@@ -61,7 +63,8 @@ class ViewerPainting {
     void finish(TouchRecording& recording, std::chrono::milliseconds patience = kPatience);
 
     /// What is painted; null: nothing.
-    [[nodiscard]] const std::shared_ptr<const TouchMaps>& painted() const { return maps_; }
+    [[nodiscard]] const std::shared_ptr<const TouchMaps>& painted() const { return painted_.maps; }
+    [[nodiscard]] const std::shared_ptr<const Regions>& regions() const { return painted_.regions; }
     /// The number for other maps that are felt in its place.
     [[nodiscard]] std::uint32_t new_version() { return ++versions_; }
     /// Lays these over the recording in place of what is painted, until that changes.
@@ -71,10 +74,17 @@ class ViewerPainting {
     [[nodiscard]] std::shared_ptr<const TouchMaps> drawn() const;
     /// The frame's colour picture with the paint over it; `frame` itself where there is none.
     [[nodiscard]] const Frame* tinted(const Frame* frame, const ViewerState& state);
+    /// A material was kept: its tint may be another.
+    void forget_tints();
 
   private:
     static constexpr std::chrono::milliseconds kPatience{10'000};
 
+    /// What there is to undo and redo.
+    struct Painted {
+        std::shared_ptr<const TouchMaps> maps{};   // null: nothing is painted
+        std::shared_ptr<const Regions> regions{};  // null: there are none
+    };
     /// Maps encoded for the recorder, and the result of writing their files.
     struct Written {
         std::uint32_t version{0};
@@ -84,7 +94,9 @@ class ViewerPainting {
 
     void start_stroke(const DepthBlend& shown, ViewerState& state, Player& player);
     void end_stroke(ViewerState& state, Player& player);
-    void replace_maps(std::shared_ptr<const TouchMaps> maps, ViewerState& state, Player& player);
+    void keep_stroke(Painted painted, ViewerState& state, Player& player);
+    void replace(Painted painted, ViewerState& state, Player& player);
+    [[nodiscard]] Painted shown() const;
     void update_brush(ViewerState& state) const;
     [[nodiscard]] std::vector<SessionMap> encoded_as(std::uint32_t version) const;
     void start_writing();
@@ -95,27 +107,29 @@ class ViewerPainting {
     int columns_{0}, rows_{0};
     bool is_sample_{false};
     std::string refusal_{};
-    std::shared_ptr<const TouchMaps> maps_{};  // null: nothing is painted
+    Painted painted_{};
     std::shared_ptr<const TouchMaps> felt_{};  // as the tick uses them
-    std::vector<std::shared_ptr<const TouchMaps>> before_{}, undone_{};
+    std::vector<Painted> before_{}, undone_{};
     std::optional<MapStroke> stroke_{};
-    std::shared_ptr<const TouchMaps> drawn_{};
+    std::optional<RegionStroke> region_stroke_{};  // of a region, or beside stroke_: erasing
+    Painted drawn_{};                              // of the strokes so far
     std::uint32_t versions_{0};
     // Versions to write, the oldest first: every version that a tick may have used.
     struct ToWrite {
         std::filesystem::path depth{};
-        std::shared_ptr<const TouchMaps> maps{};
-        bool to_files{false};
+        Painted painted{};
+        bool maps_to_files{false};
+        bool regions_to_files{false};
     };
     std::vector<ToWrite> to_write_{};
     BackgroundTask<Written> writing_;
-    std::map<std::uint32_t, std::vector<SessionMap>> encoded_{};  // of maps felt in place of maps_
+    std::map<std::uint32_t, std::vector<SessionMap>> encoded_{};  // of maps felt in their place
     std::string failure_{};                                       // for the next poll()
     // What tinted_ was made of.
     std::vector<PaintedMaterial> materials_{};
     Frame tinted_{};
     std::shared_ptr<const void> tinted_of_{};  ///< the colour
-    std::shared_ptr<const TouchMaps> tinted_maps_{};
+    Painted tinted_as_{};
     BrushLayer tinted_layer_{BrushLayer::material};
 };
 

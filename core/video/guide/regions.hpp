@@ -10,6 +10,10 @@
 
 namespace dibhr {
 
+/// Letters of a name and of a text.
+inline constexpr std::size_t kMostRegionName = 60;
+inline constexpr std::size_t kMostRegionText = 600;
+
 struct Region {
     std::string name{};  ///< "Nose"
     std::string text{};  ///< a sentence or more on it; may be empty

@@ -1,21 +1,28 @@
-// Checks the table and the label pictures against each other and against the depth.
+// Checks the table and the label pictures against each other and against the depth, and writes
+// both.
 #include "core/video/guide/regions_file.hpp"
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
+#include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/text_file.hpp"
+#include "core/video/formats/libraries.hpp"
+#include "core/video/modules/picture_codecs.hpp"
 #include "core/video/sources/beside_recording.hpp"
 #include "core/video/sources/readers.hpp"
 
@@ -25,8 +32,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kMostNameLetters = 60;
-constexpr std::size_t kMostTextLetters = 600;
 constexpr double kMostPictures_per_s = 1000.0;
 /// A label picture may be so much wider or higher than the depth.
 constexpr double kAspectTolerance = 0.03;
@@ -59,8 +64,8 @@ std::optional<Mark> colour_in(std::string_view text) {
 
 void take_region(const toml::table& said, const fs::path& file, Table& table) {
     std::vector<Region>& regions = table.regions.regions;
-    const std::string name = one_line(said["name"].value_or(std::string()), kMostNameLetters);
-    const std::string text = one_line(said["text"].value_or(std::string()), kMostTextLetters);
+    const std::string name = one_line(said["name"].value_or(std::string()), kMostRegionName);
+    const std::string text = one_line(said["text"].value_or(std::string()), kMostRegionText);
     const std::string which = name.empty() ? "region " + std::to_string(regions.size() + 1)
                                            : "the region " + in_quotes(name);
     if (name.empty()) refuse(file, which + " has no name; give it one");
@@ -156,6 +161,41 @@ void require_fit(const cv::Mat& picture, const Table& table, const fs::path& fil
                          "; save it in that shape");
 }
 
+/// The level of a label in the picture: so far apart that they are seen, where there is room.
+int level_of(std::size_t label, std::size_t regions) {
+    constexpr std::size_t kApart = 20;
+    return static_cast<int>(regions * kApart <= 255 ? label * kApart : label);
+}
+
+/// In quotes, as TOML reads it.
+std::string toml_text(const std::string& text) {
+    std::ostringstream out;
+    out << toml::value<std::string>(text);
+    return out.str();
+}
+
+std::string table_text(const Regions& regions) {
+    std::ostringstream out;
+    out << "# The regions of the picture beside this file: the level of each in it, its name, and "
+           "what is said of it.\n";
+    if (regions.pictures > 1)
+        out << "\n[labels]\npictures = " << regions.pictures
+            << "\nper-second = " << toml::value<double>(regions.pictures_per_s) << "\n";
+    for (std::size_t k = 0; k < regions.regions.size(); ++k) {
+        const Region& region = regions.regions[k];
+        out << "\n[[region]]\nlevel = " << level_of(k + 1, regions.regions.size())
+            << "\nname = " << toml_text(region.name) << "\n";
+        if (!region.text.empty()) out << "text = " << toml_text(region.text) << "\n";
+    }
+    return out.str();
+}
+
+void remove_file(const fs::path& file) {
+    std::error_code failed;
+    fs::remove(file, failed);
+    if (failed) refuse(file, "cannot be removed (" + failed.message() + "); remove it yourself");
+}
+
 }  // namespace
 
 std::shared_ptr<const Regions> read_regions(const fs::path& depth, int columns, int rows) {
@@ -175,6 +215,24 @@ std::shared_ptr<const Regions> read_regions(const fs::path& depth, int columns, 
     for (int j = 0; j < picture.rows; ++j)
         for (int i = 0; i < picture.cols; ++i) regions.labels.push_back(labels.at(j, i));
     return std::make_shared<const Regions>(std::move(regions));
+}
+
+void write_regions(const Regions* regions, const fs::path& depth) {
+    const fs::path names = beside_recording(depth, "_regions.toml");
+    const fs::path file = fs::path(names).replace_extension(".png");
+    if (regions == nullptr) {
+        remove_file(names);
+        remove_file(file);
+        return;
+    }
+    set_up_libraries();
+    cv::Mat picture(regions->rows * regions->pictures, regions->columns, CV_8UC1);
+    const auto level = [&](std::uint8_t label) {
+        return static_cast<std::uint8_t>(level_of(label, regions->regions.size()));
+    };
+    std::ranges::transform(regions->labels, picture.begin<std::uint8_t>(), level);
+    write_file(file, encoded_png(picture));
+    write_file(names, table_text(*regions));
 }
 
 }  // namespace dibhr

@@ -1,4 +1,5 @@
-// Reads the regions of a recording: label pictures and a table of names, beside its depth.
+// Reads and writes the regions of a recording: label pictures and a table of names, beside its
+// depth.
 #pragma once
 
 #include <filesystem>
@@ -13,5 +14,9 @@ namespace dibhr {
 /// what to do.
 [[nodiscard]] std::shared_ptr<const Regions> read_regions(const std::filesystem::path& depth,
                                                           int columns, int rows);
+
+/// Writes both files beside the depth, each whole or not at all; null: removes them. Throws
+/// InputError.
+void write_regions(const Regions* regions, const std::filesystem::path& depth);
 
 }  // namespace dibhr

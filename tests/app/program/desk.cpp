@@ -211,6 +211,8 @@ WindowProgram Desk::start_viewer(const TemporaryFolder& folder,
 WindowProgram Desk::start(const TemporaryFolder& folder,
                           const std::vector<std::string>& program_words,
                           const std::vector<std::string>& host) const {
+    fs::create_directories(folder / "state" / "dibhr");
+    write_text(folder / "state" / "dibhr" / "led", "");
     std::vector<std::string> words{"env", "-C", folder.path().string()};
     words.insert(words.end(), host.begin(), host.end());
     words.emplace_back(WATCHED_PROGRAM);

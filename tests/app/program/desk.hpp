@@ -102,7 +102,8 @@ class Desk {
     [[nodiscard]] static Desk of_its_own() { return Desk(std::make_shared<DisplayServer>()); }
 
     /// Starts `dibhr view` with these arguments, settings and current folder inside `folder`;
-    /// `host`: a program and its own arguments that starts it. Its sound is heard nowhere.
+    /// `host`: a program and its own arguments that starts it. Its sound is heard nowhere. It has
+    /// led a person before, unless `host` gives it another XDG_STATE_HOME.
     [[nodiscard]] WindowProgram start_viewer(const TemporaryFolder& folder,
                                              const std::vector<std::string>& arguments,
                                              const std::vector<std::string>& host = {}) const;

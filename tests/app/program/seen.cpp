@@ -26,7 +26,10 @@ std::ostream& operator<<(std::ostream& out, const Seen& seen) {
         << (seen.contact ? "contact, " : "") << seen.spring_newton << " N, sent "
         << seen.sent_newton << " N, cut " << seen.cut << (seen.ready ? ", ready" : "")
         << (seen.mouse_fallback ? ", by mouse" : "") << (seen.opening ? ", opening" : "")
-        << (seen.dialog ? ", dialog" : "") << (seen.in_front ? "" : ", not in front");
+        << (seen.dialog ? ", dialog" : "") << (seen.in_front ? "" : ", not in front")
+        << (seen.lead > 0 ? ", lead " + std::to_string(seen.lead) : "")
+        << (seen.regions > 0 ? ", region '" + seen.region.str() + "'" : "") << ", focus '"
+        << seen.focus.str() << "'";
     if (seen.replays)
         out << ", replays tick " << seen.tick << (seen.surface ? "" : " without a surface");
     if (seen.records) out << ", records " << seen.recorded_rows;

@@ -72,6 +72,8 @@ struct Seen {
     bool region_text{false};  ///< with its text
     SeenText caption{};
     std::uint64_t regions{0};  ///< named ones of the recording
+    int lead{0};               ///< the step that a person is led through, from 1; 0: none
+    bool lead_done{false};     ///< the person has done it
     bool as_recorded{false};
     bool explained{false};
     std::uint64_t explained_steps{0};  ///< taken

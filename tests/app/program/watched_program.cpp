@@ -82,6 +82,8 @@ void see_ui(const UiState& ui, Seen& seen) {
     seen.region_text = ui.region.rests;
     seen.caption.set(ui.caption);
     seen.regions = ui.regions;
+    seen.lead = ui.lead ? static_cast<int>(ui.lead->step) + 1 : 0;
+    seen.lead_done = ui.lead && ui.lead->done;
     seen.explained = ui.explained.has_value();
     seen.explained_steps = ui.explained ? ui.explained->taken : 0;
     seen.unsafe_settings = ui.unsafe_settings.size();

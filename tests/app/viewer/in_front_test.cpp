@@ -2,7 +2,6 @@
 // events that a window gets come in different orders there, and the pointer stays inside it.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
@@ -13,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/app/program/compositor.hpp"
 #include "tests/app/program/falcon_scene.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/eventually.hpp"
@@ -109,51 +109,6 @@ void check_force_goes_and_comes_back(const std::string& manager) {
     at.desk.press("key q");
     CHECK(at.viewer.wait() == 0);
 }
-
-/// A Wayland compositor without a screen, with a keyboard that types nothing.
-struct Compositor {
-    const TemporaryFolder folder{};
-    std::vector<std::string> environment{};
-    std::unique_ptr<Process> compositor{}, keyboard{};
-
-    Compositor() {
-        write_text(folder / "sway.conf", "output HEADLESS-1 resolution 640x480\n");
-        environment = {"XDG_RUNTIME_DIR=" + folder.path().string(), "WLR_BACKENDS=headless",
-                       "WLR_RENDERER=pixman", "WLR_LIBINPUT_NO_DEVICES=1",
-                       "SWAYSOCK=" + (folder / "ipc").string()};
-        std::vector<std::string> words{"sway", "-c", (folder / "sway.conf").string()};
-        if (::geteuid() == 0) {  // which sway refuses
-            run_shell("chown nobody '" + folder.path().string() + "'");
-            words.insert(words.begin(),
-                         {"setpriv", "--reuid=nobody", "--regid=nogroup", "--clear-groups"});
-        }
-        compositor = std::make_unique<Process>(words, environment, folder / "sway.txt");
-        REQUIRE(eventually([this] { return performs("swaymsg workspace 1"); }));
-        REQUIRE(eventually([this] { return !socket().empty(); }));
-        environment.push_back("WAYLAND_DISPLAY=" + socket());
-        keyboard = std::make_unique<Process>(std::vector<std::string>{"wtype", "-s", "3600000"},
-                                             environment, folder / "keyboard.txt");
-    }
-    [[nodiscard]] std::string socket() const {
-        for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
-            const std::string name = entry.path().filename().string();
-            if (name.starts_with("wayland-") && !name.ends_with(".lock")) return name;
-        }
-        return {};
-    }
-    /// Whether a command line succeeds there.
-    [[nodiscard]] bool performs(const std::string& command) const {
-        std::string line = "exec > /dev/null 2>&1; ";
-        for (const std::string& entry : environment) line += "export '" + entry + "'; ";
-        return std::system((line + command).c_str()) == 0;  // NOLINT: of this test
-    }
-    /// What starts a program on it.
-    [[nodiscard]] std::vector<std::string> host() const {
-        std::vector<std::string> words{"env", "-u", "DISPLAY"};
-        words.insert(words.end(), environment.begin(), environment.end());
-        return words;
-    }
-};
 
 }  // namespace
 

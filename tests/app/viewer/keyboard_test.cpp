@@ -110,6 +110,24 @@ TEST_CASE("a slider takes arrows and a typed number and a list takes its entry b
     CHECK(viewer.seen().focus_value.str() == "a point");
 }
 
+TEST_CASE("what is typed before a field or a dialog has the keyboard arrives in it", "[keyboard]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    write_depth_png(folder / "first_depth.png", 64, 48, 100);
+    write_depth_png(folder / "second_depth.png", 64, 48, 100);
+    WindowProgram viewer = view_sample(desk, folder, {"--open-dialog", "window"});
+    viewer.wait_for_surface();
+    viewer.act("key F6 key F6");
+    go_to(viewer, "Fingertip");
+    desk.press("key Return type 2.5");
+    for (int k = 0; k < 6; ++k) viewer.wait_for_turn();
+    viewer.act("key Return");
+    viewer.wait_until([](const Seen& now) { return now.focus_value.str() == "2.5 mm"; });
+    viewer.act("key Escape");
+    desk.press("key ctrl+o type second");
+    viewer.wait_until([](const Seen& now) { return now.dialog && now.dialog_entries == 1; });
+}
+
 TEST_CASE("keys move the hand over the relief and press it and a mouse click takes it back",
           "[keyboard]") {
     const Desk desk;

@@ -258,6 +258,29 @@ TEST_CASE("a packed stream is recorded by key with its colour, and seen again wi
     require_same_bits(folder, session);
 }
 
+TEST_CASE("a recording asked for while the last one is finished is taken back by another press",
+          "[live]") {
+    const TemporaryFolder folder;
+    const Desk desk;
+    WindowProgram viewer = desk.start_viewer(
+        folder, {"lavfi:testsrc2=size=160x120:rate=30,format=yuv444p,split[a][b];[b]format=gray,"
+                 "boxblur=8,format=yuv444p[c];[a][c]hstack",
+                 "--packing", "left-right", "--device", "mouse", "--size", "640x480"});
+    viewer.wait_for_surface();
+    viewer.act("mousemove 150 240 mousedown 1 key ctrl+r");
+    wait_for_rows(viewer, 100);
+    viewer.hang();
+    desk.press("key ctrl+r key ctrl+r key ctrl+r");  // ends it, asks for another one, takes it back
+    viewer.go_on();
+    viewer.wait_until([](const Seen& now) { return contains(now.notice.str(), "Recorded "); });
+    for (int k = 0; k < 10; ++k) viewer.wait_for_turn();
+    CHECK_FALSE(viewer.seen().records);
+    desk.press("mouseup 1 key q");
+    REQUIRE(viewer.wait() == 0);
+    const auto is_session = [](const std::string& name) { return name.ends_with(".dibhr"); };
+    CHECK(std::ranges::count_if(names_in(folder.path()), is_session) == 1);
+}
+
 TEST_CASE("a live session over what moves carries the hand, and replays to the same bits",
           "[live]") {
     const TemporaryFolder folder;

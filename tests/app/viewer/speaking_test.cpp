@@ -37,6 +37,7 @@ TEST_CASE("of several news the weightiest is said and what ended is none", "[spe
     CHECK(news_of({.region = "Cup", .text = "Blue.", .caption = "A table"}, before) == "Blue.");
     CHECK(news_of({.message = "No", .notice = "Saved", .focus = "Play", .region = "Table"},
                   before) == "No");
+    CHECK(news_of({.focus = "Play", .help = "Plays"}, {.focus = "Play"}) == "Plays");
     CHECK(news_of({.notice = "Saved", .focus = "Play", .region = "Table"}, before) == "Saved");
 }
 
@@ -115,6 +116,38 @@ TEST_CASE("captions and notices and messages are spoken and nothing is without -
     viewer.act("key m");
     CHECK(eventually([&] { return has_call(spoken, "say " + viewer.seen().notice.str()); }));
     desk.press("key q");
+    REQUIRE(viewer.wait() == 0);
+}
+
+TEST_CASE(
+    "the tooltip of what has the keyboard is said after its name once the keyboard rests there",
+    "[speech]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    write_cup(folder);
+    const fs::path spoken = folder / "spoken";
+    WindowProgram viewer =
+        desk.start_viewer(folder, cup_options({"--speak"}), with_stand_in(folder));
+    viewer.wait_for_surface();
+    viewer.act("key F6 key F6");
+    for (int k = 0; k < 250 && viewer.seen().focus.str() != "Speak"; ++k) {
+        viewer.act("key Tab");
+        viewer.wait_for_turn();
+        viewer.wait_for_turn();
+    }
+    REQUIRE(viewer.seen().focus.str() == "Speak");
+    const auto of_tooltip = [&](const std::vector<std::string>& calls) {
+        return std::ranges::find_if(
+            calls, [](const auto& call) { return call.starts_with("say What is touched, "); });
+    };
+    REQUIRE(eventually([&] {
+        const auto calls = calls_in(spoken);
+        return of_tooltip(calls) != calls.end();
+    }));
+    const auto calls = calls_in(spoken);
+    const auto said = of_tooltip(calls);
+    CHECK(*(said - 1) == "say Speak, check box, on");  // which is not broken off
+    desk.press("key Escape key q");
     REQUIRE(viewer.wait() == 0);
 }
 

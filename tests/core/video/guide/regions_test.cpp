@@ -107,6 +107,33 @@ TEST_CASE("regions may be marked by colours as people draw them", "[regions]") {
     CHECK(name_at(*regions, 35, 3).empty());  // transparent
 }
 
+TEST_CASE("written regions are read back with all names and texts and places and times",
+          "[regions]") {
+    const TemporaryFolder folder;
+    const int count = GENERATE(1, 2, 12, 13, 255);
+    const int pictures = GENERATE(1, 3);
+    Regions regions{kWide, kHigh, pictures, pictures > 1 ? 2.5 : 0.0, {}, {}};
+    for (int k = 0; k < count; ++k)
+        regions.regions.push_back({"\"No. " + std::to_string(k) + "\" \\ é",
+                                   k % 2 == 0 ? "" : "Text " + std::to_string(k)});
+    for (int k = 0; k < kWide * kHigh * pictures; ++k)
+        regions.labels.push_back(static_cast<std::uint8_t>(k % (count + 1)));
+    write_regions(&regions, folder / "cup_depth.mp4");
+    const auto read = read_regions(folder / "cup_depth.mp4", kWide, kHigh);
+    REQUIRE(read);
+    CHECK(read->pictures == pictures);
+    CHECK(read->pictures_per_s == regions.pictures_per_s);
+    CHECK(read->labels == regions.labels);
+    REQUIRE(read->regions.size() == regions.regions.size());
+    for (std::size_t k = 0; k < regions.regions.size(); ++k) {
+        CHECK(read->regions[k].name == regions.regions[k].name);
+        CHECK(read->regions[k].text == regions.regions[k].text);
+    }
+    write_regions(nullptr, folder / "cup_depth.mp4");
+    CHECK(read_regions(folder / "cup_depth.mp4", kWide, kHigh) == nullptr);
+    CHECK_FALSE(fs::exists(folder / "cup_regions.png"));
+}
+
 TEST_CASE("a recording without a table of regions has none", "[regions]") {
     const TemporaryFolder folder;
     CHECK(read_regions(folder / "cup_depth.mp4", kWide, kHigh) == nullptr);

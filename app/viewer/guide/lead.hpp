@@ -1,0 +1,49 @@
+// Leads a person through the first touch at the first start: press, stroke, choose a material.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/panels/viewer_state.hpp"
+#include "app/viewer/task_group.hpp"
+#include "core/video/frames/frame_window.hpp"
+#include "core/video/guide/regions.hpp"
+
+namespace dibhr {
+
+/// It shows and takes nothing: each step ends when the person has done it, or by itself.
+class ViewerLead {
+  public:
+    /// The sample is shown by this program for the first time: leads, unless its regions lack the
+    /// nose or the jumper. That it did is kept by `saving`, in the user's state folder.
+    void begin(std::shared_ptr<const Regions> regions, const ViewerState& state, TaskQueue& saving);
+    void end(ViewerState& state);
+
+    /// Once a turn, after the frames of this turn are known.
+    void follow(const DepthBlend& shown, double now_s, ViewerState& state);
+
+  private:
+    void begin_step(LeadStep step, ViewerState& state);
+    void find_nose(const DepthBlend& shown);
+    void find_jumper(const DepthBlend& shown);
+    [[nodiscard]] bool is_done(const DepthBlend& shown, const ViewerState& state);
+
+    /// A place in the label picture, as shares of its width and height.
+    struct Place {
+        double x{0.0}, y{0.0};
+    };
+
+    std::shared_ptr<const Regions> regions_{};  // null: does not lead
+    std::string material_{};                    // in the begin
+    Place from_{}, to_{};                       // the same for the nose
+    std::optional<int> picture_{};              // of which they are
+    double turn_s_{0.0};                        // the last turn
+    double time_s_{0.0};                        // since the begin
+    double since_s_{0.0};                       // of it, the step's begin
+    std::optional<double> done_s_{};            // when the person had done it
+    std::optional<Vec3> stroked_to_{};          // the proxy on the jumper in the last turn
+    double stroked_px_{0.0};
+};
+
+}  // namespace dibhr
