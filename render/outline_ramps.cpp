@@ -86,12 +86,12 @@ std::optional<OutlineRamps::Ramp> OutlineRamps::along(GridPlace from, GridPlace 
     for (int n = 1; n < unit_ && rises(end, end + 1); ++n) end = at.inside(end + 1);
     // A filter that overshoots has left a ring beside the ramp, which is on no face.
     const float rise_px = at(end) - at(begin);
-    const auto after_ring = [&](int from, int towards) {
-        int after = from;
+    const auto after_ring = [&](int face, int towards) {
+        int after = face;
         for (int n = 1; n <= kRing; ++n) {
-            const int next = at.inside(from + n * towards);
+            const int next = at.inside(face + n * towards);
             const auto overshoot = [&](int k) {
-                return (towards < 0 ? -1.0F : 1.0F) * (at(from) - at(k)) / rise_px;
+                return (towards < 0 ? -1.0F : 1.0F) * (at(face) - at(k)) / rise_px;
             };
             if (overshoot(next) > overshoot(after) && overshoot(next) < kOvershoot) after = next;
         }

@@ -20,10 +20,15 @@ float panel_column_width(const ViewerState& state) {
     return std::floor(std::min(kColumnWidth * ui.scale, kMostOfWindow * ui.window_width));
 }
 
+void draw_panel_ground(const ViewerState& state) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float width = panel_column_width(state);
+    if (width > 0.0F) fill_under_panels({display.x - width, 0.0F}, {display.x, display.y});
+}
+
 void draw_panel_column(ViewerState& state, Transport& transport) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float width = panel_column_width(state);
-    fill_under_panels({display.x - width, 0.0F}, {display.x, display.y});
     ImGui::SetNextWindowPos({display.x - width, 0.0F});
     ImGui::SetNextWindowSize({width, display.y});
     ImGui::Begin("Panels", nullptr,

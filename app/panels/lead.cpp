@@ -16,7 +16,7 @@ namespace {
 constexpr ImU32 kInk = IM_COL32(255, 255, 255, 245);
 constexpr ImU32 kEdge = IM_COL32(12, 18, 20, 215);
 constexpr ImU32 kGlow = IM_COL32(255, 255, 255, 120);
-constexpr double kCycle_s = 2.0;  // the movement is shown again and again
+constexpr double kShownAgain_s = 2.0;  // the movement is shown again and again
 
 ImU32 accent() {
     ImVec4 colour = ImGui::GetStyleColorVec4(ImGuiCol_SliderGrabActive);
@@ -37,11 +37,12 @@ float eased(double now, double from, double to) {
     return static_cast<float>(t * t * (3.0 - 2.0 * t));
 }
 
-/// It comes from beside, presses, goes to the end of the way, and lets go. `way` is not empty.
+/// The hand comes from beside, presses, goes to the end of the way, and lets go. `way` is not
+/// empty.
 Hand hand_on(const std::vector<ImVec2>& way, double time_s, float scale) {
     constexpr double kThere = 0.25;
     constexpr double kLetsGo = 0.8;
-    const double now = std::fmod(time_s, kCycle_s) / kCycle_s;
+    const double now = std::fmod(time_s, kShownAgain_s) / kShownAgain_s;
     const float comes = 1.0F - eased(now, 0.0, kThere);
     const float share = eased(now, kThere, kLetsGo);
     const std::size_t k =
@@ -88,7 +89,7 @@ void draw_line(ImDrawList& list, const std::vector<ImVec2>& way, std::size_t cou
     if (count >= 2) list.AddPolyline(way.data(), static_cast<int>(count), colour, 0, thick);
 }
 
-/// On the relief: where it is, and the hand; a tick once it is done.
+/// On the relief: the place or the way, and the hand; a tick once the step is done.
 void draw_on_relief(ImDrawList& list, const LeadShown& lead, const std::vector<ImVec2>& way,
                     float scale) {
     const float ring = 20.0F * scale;
@@ -181,7 +182,10 @@ void draw_lead(ViewerState& state, const glm::dmat4& clip_from_grid) {
     std::vector<ImVec2> way;
     for (const Vec3& place : lead.places)
         if (const auto at = screen.at(place)) way.push_back(*at);
-    if (way.size() == lead.places.size() && !way.empty()) draw_on_relief(list, lead, way, scale);
+    if (way.size() != lead.places.size() || way.empty()) return;
+    list.PushClipRect(screen.low(), screen.high());
+    draw_on_relief(list, lead, way, scale);
+    list.PopClipRect();
 }
 
 }  // namespace dibhr

@@ -37,6 +37,12 @@ void set_text(TextField& field, const std::string& text) {
     std::copy_n(text.data(), std::min(text.size(), field.size() - 1), field.data());
 }
 
+/// Empty, too, where no region has that name.
+std::string text_of(const Regions& regions, std::string_view name) {
+    const auto found = std::ranges::find(regions.regions, name, &Region::name);
+    return found == regions.regions.end() ? std::string() : found->text;
+}
+
 /// The region that is painted: one of those there are, or a new one.
 void draw_region_rows(ViewerState& state) {
     Brush& brush = state.ui.brush;
@@ -56,8 +62,10 @@ void draw_region_rows(ViewerState& state) {
             set_text(brush.region_text, region.text);
         }
     }
-    text_row("Name", "Name of the region", brush.region_name,
-             "Shown and spoken where the region is touched");
+    const bool named = text_row("Name", "Name of the region", brush.region_name,
+                                "Shown and spoken where the region is touched");
+    if (named && brush.regions && brush.region_text.front() == '\0')
+        set_text(brush.region_text, text_of(*brush.regions, brush.region_name.data()));
     text_row("Text", "Text on it, if any", brush.region_text,
              "Shown and spoken once the finger rests; may be empty");
     if (brush.region_name.front() == '\0') draw_dimmed("Give the region a name, then paint it.");

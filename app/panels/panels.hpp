@@ -52,6 +52,8 @@ void draw_clip_button(ViewerState& state);
 /// In a replay: the session's facts, the touch at the shown moment, its marks.
 void draw_replay_panel(ViewerState& state, Transport& replay);
 
+/// The ground of the column at the right, over all that was drawn under the panels so far.
+void draw_panel_ground(const ViewerState& state);
 /// The column at the right, with all panels for the video or the session that plays. Its width in
 /// pixels is panel_column_width().
 void draw_panel_column(ViewerState& state, Transport& transport);
@@ -61,7 +63,7 @@ void draw_panel_column(ViewerState& state, Transport& transport);
 /// measure, save a clip. Hidden with the panels, while an update is explained, and where there is
 /// no room.
 void draw_toolbar(ViewerState& state);
-/// Where it is in the window [px]; nothing: hidden.
+/// Where the toolbar is in the window [px]; nothing: hidden.
 struct ToolbarPlace {
     float left{0.0F}, top{0.0F}, right{0.0F}, bottom{0.0F};
 };
@@ -97,8 +99,8 @@ void draw_brush(const ViewerState& state, const glm::dmat4& clip_from_grid);
 /// Over the relief: the force in numbers, notices; `now_s` counts from the start.
 void draw_overlay(const ViewerState& state, double now_s);
 
-/// Shows a person at the first start what to do: marks over all, and a way to skip it, if
-/// somebody is led. `clip_from_grid` is the relief's camera.
+/// Shows a person at the first start what to do: marks over the relief and the panels, and a button
+/// that skips them, if somebody is led. `clip_from_grid` is the relief's camera.
 void draw_lead(ViewerState& state, const glm::dmat4& clip_from_grid);
 
 /// Shows that a clip is made. `drawn` is called in Gui::end(), when all but this label is drawn; it

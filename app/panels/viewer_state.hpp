@@ -222,7 +222,7 @@ struct LeadShown {
     std::array<float, 4> button{};  ///< on the panel: left, top, right, bottom [px]; 0: not drawn
     double time_s{0.0};             ///< since the step's begin, ten times a second
     bool done{false};               ///< the person has done it
-    std::string words{};            ///< for those who do not see it
+    std::string words{};            ///< spoken, as the marks are pictures
 };
 
 /// The window stands where visitors touch it: no panels, two large buttons.

@@ -16,8 +16,8 @@ namespace {
 // From the reference of speech-dispatcher's C interface (info speech-dispatcher, "C API"), stable
 // since 0.8: a connection is opaque, modes and priorities are enumerations.
 struct SpeechConnection;
-constexpr int kModeSingle = 0;    // SPD_MODE_SINGLE: no callbacks, no thread of the library
-constexpr int kPriorityText = 3;  // SPD_TEXT: a newer text takes the place of an older one
+constexpr int kModeSingle = 0;  // SPD_MODE_SINGLE: no callbacks, no thread of the library
+constexpr int kPriority = 2;    // SPD_MESSAGE: spoken after the messages before
 
 /// The functions that are used; null until they are loaded.
 struct SpeechFunctions {
@@ -88,10 +88,10 @@ class Speaker::Work {
         const std::string& text = saying.text;
         if (gave_up_ || !connect()) return;
         if (!saying.next) functions_.cancel(connection_);
-        if (text.empty() || functions_.say(connection_, kPriorityText, text.c_str()) >= 0) return;
+        if (text.empty() || functions_.say(connection_, kPriority, text.c_str()) >= 0) return;
         functions_.close(connection_);  // the daemon has ended; once more with a new one
         connection_ = nullptr;
-        if (connect() && functions_.say(connection_, kPriorityText, text.c_str()) < 0)
+        if (connect() && functions_.say(connection_, kPriority, text.c_str()) < 0)
             give_up("speech-dispatcher does not take what is to be spoken: restart it");
     }
 

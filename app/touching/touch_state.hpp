@@ -62,7 +62,7 @@ struct StripHistory {
 };
 
 /// A line to type into.
-using TextField = std::array<char, 1024>;
+using TextField = std::array<char, 4096>;  // a path, or 600 letters of any script
 
 /// What a person types about a recording.
 struct SessionFields {

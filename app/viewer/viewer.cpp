@@ -117,7 +117,7 @@ Viewer::Viewer(const ViewOptions& options, OpeningWindow& opening, ViewerParts p
                files.guide);
     if (!options.record.empty() && live) touch_.recording().start_live(options.record);
     apply_play_options(options, 0.0, touch_.player());
-    if (options.may_lead() && touch_.by_mouse() && is_sample(state_.media.colour_path))
+    if (options.may_lead() && is_sample(state_.media.colour_path))
         lead_.begin(guide_.regions(), state_, save_queue_);
 }
 
@@ -283,8 +283,8 @@ double Viewer::most_pictures_per_s() const {
     return video_runs() ? state_.media.playback.most_pictures_per_s : 0.0;
 }
 
-/// Whether the next frame replaces a picture before anybody sees its last detail, which takes the
-/// processor twice as long where it draws. The picture that stays has it.
+/// Whether the next frame replaces a picture before anybody sees its last detail, with which the
+/// processor draws twice as long. The picture that stays has the detail; a replay always has.
 bool Viewer::pictures_pass() const {
     return video_runs() && (software_ || most_pictures_per_s() > 0.0);
 }

@@ -101,9 +101,11 @@ struct ViewOptions {
     [[nodiscard]] bool asks_nobody() const {
         return full_screen || seconds.has_value() || (!clip.empty() && !looping.value_or(true));
     }
-    /// Whether a person may be shown at the first start what to do: nothing else is asked for.
+    /// Whether a person may be shown at the first start what the mouse does: nothing else is asked
+    /// for, and no force device is named.
     [[nodiscard]] bool may_lead() const {
-        return !asks_nobody() && !kiosk && screenshot.empty() && clip.empty();
+        return !asks_nobody() && !kiosk && screenshot.empty() && clip.empty() && record.empty() &&
+               (device == "auto" || device == "mouse");
     }
 };
 

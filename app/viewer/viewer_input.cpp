@@ -203,6 +203,7 @@ void Viewer::move_hand(const WindowInput& input) {
     use_clicks(input.clicks, input.wheel_steps);
     if (!state_.touch.replay) guide_.show(painting_.regions(), state_);
     guide_.follow(shown_, now_s(), state_);
+    if (!touch_.by_mouse()) lead_.end(state_);
     lead_.follow(shown_, now_s(), state_);
     if (!state_.touch.replay) guide_.follow_ridges(shown_, state_, painting_, touch_.player());
 }

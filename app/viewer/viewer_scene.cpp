@@ -155,6 +155,7 @@ void Viewer::lay_out_panels(std::span<const KeyPress> pressed, const std::functi
         draw_opening(*opening, state_.ui.fonts,
                      state_.ui.window_width - panel_column_width(state_));
     draw_explained();
+    draw_panel_ground(state_);
     draw_unsafe_settings(state_);
     draw_depth_offer(state_);
     asking_.draw_reliefs(shown_, touch_.media_number(), state_, scene_);

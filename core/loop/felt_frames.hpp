@@ -28,7 +28,7 @@ class FeltFrames final : public FeltSurfaces {
 
     /// While on, frames are kept until a tick of later ones is asked for; else only those of the
     /// last window, which the loop holds as well. A recording begins with on. `pictures`: of each
-    /// second of a video preview() gives one.
+    /// second of a video preview() gives one, unless it cannot be encoded.
     void keep(bool on, bool pictures = false);
 
     [[nodiscard]] std::optional<FeltSurface> surface_of(const TickRecord& tick) override;

@@ -127,8 +127,10 @@ OpenedSession::OpenedSession(const std::filesystem::path& file, bool any_media, 
     : session(file),
       frames(open_surfaces((session.rescue_if_damaged(), session),
                            {.any_media = any_media, .colour = true}, from)) {
-    if (session.reader().is_rescued())
-        band = read_band(session.reader(), session.begin_s(), session.end_s(), false);
+    if (session.reader().is_rescued()) try {
+            band = read_band(session.reader(), session.begin_s(), session.end_s(), false);
+        } catch (const InputError&) {  // the contacts alone are not shown
+        }
     if (session.rows() > 0 && !session.sources().empty()) return;
     // One of the first format says why it has no video.
     if (!session.warning().empty()) throw InputError(session.warning());

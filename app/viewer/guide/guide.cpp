@@ -22,20 +22,26 @@ constexpr double kStays_s = 3.0;
 
 FoundGuide find_guide(const MediaDescription& media) {
     FoundGuide found;
-    const auto attempt = [&found](const auto& step, const char* without) {
+    /// Returns why the step failed; empty: it did not.
+    const auto attempt = [&found](const auto& step, const char* without) -> std::string {
         try {
             step();
+            return {};
         } catch (const std::exception& error) {
             found.trouble += (found.trouble.empty() ? "" : "\n\n") + std::string(error.what()) +
                              "\n\nThe recording is touched without " + without + ".";
+            return error.what();
         }
     };
-    attempt(
+    FoundRegions& found_regions = found.regions;
+    found_regions.refusal = attempt(
         [&] {
-            found.regions = read_regions(media.depth_path, media.depth_columns, media.depth_rows);
+            found_regions.regions =
+                read_regions(media.depth_path, media.depth_columns, media.depth_rows);
         },
         "named regions");
-    attempt([&] { found.captions = read_captions(media.depth_path); }, "captions");
+    static_cast<void>(
+        attempt([&] { found.captions = read_captions(media.depth_path); }, "captions"));
     return found;
 }
 
@@ -43,7 +49,7 @@ void ViewerGuide::begin(const FoundGuide& found, ViewerState& state) {
     captions_ = found.captions;
     state.ui.caption.clear();
     laid_ = {};
-    take(found.regions, state);
+    take(found.regions.regions, state);
     if (found.trouble.empty()) return;
     std::string& message = state.ui.message;
     message += (message.empty() ? "" : "\n\n") + found.trouble;

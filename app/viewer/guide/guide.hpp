@@ -21,8 +21,8 @@ namespace dibhr {
 
 /// What lies beside a recording for that, or why it cannot be read.
 struct FoundGuide {
-    std::shared_ptr<const Regions> regions{};    ///< null: there are none
-    std::shared_ptr<const Captions> captions{};  ///< likewise
+    FoundRegions regions{};
+    std::shared_ptr<const Captions> captions{};  ///< null: there are none
     std::string trouble{};
 };
 

@@ -105,6 +105,7 @@ const char* words_of(LeadStep step) {
 /// A person does something else already.
 bool is_busy(const UiState& ui) {
     return ui.explained || ui.ruler || ui.brush.on || ui.help_open || ui.dialog.shown || ui.clip ||
+           ui.depth_offer || ui.depth_question || !ui.unsafe_settings.empty() ||
            !ui.message.empty();
 }
 
@@ -112,13 +113,16 @@ bool is_busy(const UiState& ui) {
 
 void ViewerLead::begin(std::shared_ptr<const Regions> regions, const ViewerState& state,
                        TaskQueue& saving) {
-    const std::filesystem::path led = led_path();
     std::error_code unknown;
-    if (!regions || std::filesystem::exists(led, unknown)) return;
+    if (!regions || std::filesystem::exists(led_path(), unknown)) return;
     if (label_of(*regions, kNose) == 0 || label_of(*regions, kJumper) == 0) return;
     regions_ = std::move(regions);
     material_ = state.touch.material.name;
-    saving.add([led] {
+    saving_ = &saving;
+}
+
+void ViewerLead::keep_led() const {
+    saving_->add([led = led_path()] {
         try {
             std::error_code failed;  // reported when the file is opened
             make_folders(led.parent_path(), failed);
@@ -133,6 +137,7 @@ void ViewerLead::begin(std::shared_ptr<const Regions> regions, const ViewerState
 void ViewerLead::end(ViewerState& state) {
     regions_.reset();
     state.ui.lead.reset();
+    state.ui.show_touch = false;
 }
 
 void ViewerLead::begin_step(LeadStep step, ViewerState& state) {
@@ -150,11 +155,15 @@ void ViewerLead::follow(const DepthBlend& shown, double now_s, ViewerState& stat
     if (!shown.makes_surface()) return;
     // A window that stands still takes no time away.
     time_s_ += std::min(now_s - std::exchange(turn_s_, now_s), kLongestTurn_s);
-    if (!state.ui.lead) begin_step(LeadStep::press, state);
+    if (!state.ui.lead) {
+        keep_led();
+        begin_step(LeadStep::press, state);
+    }
     if (!done_s_ && is_done(shown, state)) done_s_ = time_s_;
     if (time_s_ > done_s_.value_or(since_s_ + kStep_s) + (done_s_ ? kDone_s : 0.0)) {
         const LeadStep last = state.ui.lead->step;
-        if (last == LeadStep::choose) return end(state);
+        const bool hidden = last == LeadStep::stroke && !state.settings.panels_visible;
+        if (last == LeadStep::choose || hidden) return end(state);
         begin_step(last == LeadStep::press ? LeadStep::stroke : LeadStep::choose, state);
     }
     LeadShown& lead = *state.ui.lead;

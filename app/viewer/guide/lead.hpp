@@ -12,11 +12,12 @@
 
 namespace dibhr {
 
-/// It shows and takes nothing: each step ends when the person has done it, or by itself.
+/// Shows the steps and takes no input: each step ends when the person has done it, or after 6.5 s.
 class ViewerLead {
   public:
-    /// The sample is shown by this program for the first time: leads, unless its regions lack the
-    /// nose or the jumper. That it did is kept by `saving`, in the user's state folder.
+    /// The sample is shown: leads, unless somebody was led before, or the regions lack the nose or
+    /// the jumper. `saving` must outlive this object; it keeps in the user's state folder that the
+    /// first step was shown.
     void begin(std::shared_ptr<const Regions> regions, const ViewerState& state, TaskQueue& saving);
     void end(ViewerState& state);
 
@@ -24,6 +25,7 @@ class ViewerLead {
     void follow(const DepthBlend& shown, double now_s, ViewerState& state);
 
   private:
+    void keep_led() const;
     void begin_step(LeadStep step, ViewerState& state);
     void find_nose(const DepthBlend& shown);
     void find_jumper(const DepthBlend& shown);
@@ -35,14 +37,15 @@ class ViewerLead {
     };
 
     std::shared_ptr<const Regions> regions_{};  // null: does not lead
-    std::string material_{};                    // in the begin
-    Place from_{}, to_{};                       // the same for the nose
-    std::optional<int> picture_{};              // of which they are
-    double turn_s_{0.0};                        // the last turn
-    double time_s_{0.0};                        // since the begin
-    double since_s_{0.0};                       // of it, the step's begin
-    std::optional<double> done_s_{};            // when the person had done it
-    std::optional<Vec3> stroked_to_{};          // the proxy on the jumper in the last turn
+    TaskQueue* saving_{nullptr};
+    std::string material_{};            // in the begin
+    Place from_{}, to_{};               // the same for the nose
+    std::optional<int> picture_{};      // of which they are
+    double turn_s_{0.0};                // the last turn
+    double time_s_{0.0};                // since the begin
+    double since_s_{0.0};               // of it, the step's begin
+    std::optional<double> done_s_{};    // when the person had done it
+    std::optional<Vec3> stroked_to_{};  // the proxy on the jumper in the last turn
     double stroked_px_{0.0};
 };
 

@@ -31,8 +31,8 @@ struct Spoken {
 
 class ViewerSpeaking {
   public:
-    /// Once a turn. Speaks what is new, in place of what is older, while `on`; help is spoken after
-    /// it. Returns a line on why nothing can be spoken, once.
+    /// Once a turn. Speaks what is new, in place of what is older, while `on`; help waits until the
+    /// text before is spoken. Returns a line on why nothing can be spoken, once.
     [[nodiscard]] std::optional<std::string> follow(Spoken now, double now_s, bool on);
     /// Says the last news again; `on` as of the last turn.
     void repeat();

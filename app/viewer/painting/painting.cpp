@@ -108,14 +108,13 @@ std::shared_ptr<const TouchMaps> ViewerPainting::numbered(TouchMaps maps) {
     return std::make_shared<const TouchMaps>(std::move(maps));
 }
 
-std::shared_ptr<const TouchMaps> ViewerPainting::begin(FoundMaps found,
-                                                       std::shared_ptr<const Regions> regions,
+std::shared_ptr<const TouchMaps> ViewerPainting::begin(FoundMaps found, FoundRegions regions,
                                                        const MediaDescription& media,
                                                        bool is_sample) {
     stroke_.reset();
     region_stroke_.reset();
     const bool is_same = depth_ == media.depth_path && columns_ == media.depth_columns &&
-                         rows_ == media.depth_rows && refusal_.empty();
+                         rows_ == media.depth_rows && refusal_.empty() && regions_refusal_.empty();
     felt_ = painted_.maps;
     encoded_.clear();
     if (is_same) return felt_;
@@ -124,9 +123,10 @@ std::shared_ptr<const TouchMaps> ViewerPainting::begin(FoundMaps found,
     rows_ = media.depth_rows;
     is_sample_ = is_sample;
     refusal_ = std::move(found.refusal);
+    regions_refusal_ = std::move(regions.refusal);
     before_.clear();
     undone_.clear();
-    painted_ = {nullptr, std::move(regions)};
+    painted_ = {nullptr, std::move(regions.regions)};
     if (found.maps) painted_.maps = numbered(*found.maps);
     if (painted_.maps) to_write_.push_back({depth_, painted_});  // for recordings
     felt_ = painted_.maps;
@@ -167,8 +167,7 @@ void ViewerPainting::use(bool pressed, const std::optional<Vec3>& under, const D
         stroke_->go_to(*under);
         drawn_.maps = std::make_shared<const TouchMaps>(stroke_->maps());
     }
-    if (region_stroke_) {
-        region_stroke_->go_to(*under);
+    if (region_stroke_ && region_stroke_->go_to(*under)) {
         drawn_.regions = std::make_shared<const Regions>(region_stroke_->regions());
     }
 }
@@ -181,6 +180,10 @@ void ViewerPainting::start_stroke(const DepthBlend& shown, ViewerState& state, P
     const bool of_region = brush.layer == BrushLayer::region;
     if (of_region && brush.region_name.front() == '\0') {
         state.ui.message = "The region has no name yet: type one on the Paint panel, then paint.";
+        return;
+    }
+    if (of_region && !regions_refusal_.empty()) {
+        state.ui.message = "No region can be painted here: " + regions_refusal_;
         return;
     }
     try {
@@ -210,7 +213,8 @@ void ViewerPainting::end_stroke(ViewerState& state, Player& player) {
         }
         painted.maps = maps.empty() ? nullptr : numbered(std::move(maps));
     }
-    if (region_stroke_) painted.regions = without_bare(region_stroke_->regions());
+    if (region_stroke_ && region_stroke_->has_changed(painted_.regions.get()))
+        painted.regions = without_bare(region_stroke_->regions());
     stroke_.reset();
     region_stroke_.reset();
     keep_stroke(std::move(painted), state, player);
@@ -222,7 +226,9 @@ void ViewerPainting::keep_stroke(Painted painted, ViewerState& state, Player& pl
     undone_.clear();
     std::size_t bytes = 0;
     for (std::size_t k = before_.size(); k-- > 0;) {
-        bytes += bytes_of(before_[k].maps.get()) + bytes_of(before_[k].regions.get());
+        const Painted& after = k + 1 < before_.size() ? before_[k + 1] : painted;
+        if (before_[k].maps != after.maps) bytes += bytes_of(before_[k].maps.get());
+        if (before_[k].regions != after.regions) bytes += bytes_of(before_[k].regions.get());
         if (bytes <= kMostUndo_bytes || k + 1 == before_.size()) continue;
         before_.erase(before_.begin(), before_.begin() + static_cast<std::ptrdiff_t>(k) + 1);
         break;
@@ -298,17 +304,25 @@ void ViewerPainting::start_writing() {
                     known = encoded_as(maps ? maps->version : 0)]() -> Written {
         Written written;
         const Painted& painted = next.painted;
-        try {
+        const auto attempt = [&written](const auto& step) {
+            try {
+                step();
+            } catch (const std::exception& error) {
+                written.failure +=
+                    (written.failure.empty() ? "" : "\n\n") + std::string(error.what());
+            }
+        };
+        attempt([&] {
             if (painted.maps) {
                 written.version = painted.maps->version;
                 written.encoded = known.empty() ? encoded(*painted.maps) : known;
             }
             if (maps_to_files)
                 write_touch_maps(painted.maps ? *painted.maps : TouchMaps{}, next.depth);
+        });
+        attempt([&] {
             if (regions_to_files) write_regions(painted.regions.get(), next.depth);
-        } catch (const std::exception& error) {
-            written.failure = error.what();
-        }
+        });
         return written;
     });
 }

@@ -26,6 +26,12 @@ struct FoundMaps {
     std::string refusal{};
 };
 
+/// The named regions beside a recording, or why they cannot be read: then none is painted.
+struct FoundRegions {
+    std::shared_ptr<const Regions> regions{};  ///< null: there are none
+    std::string refusal{};
+};
+
 /// Reads files: not for the window's thread.
 [[nodiscard]] FoundMaps find_maps(const MediaDescription& media);
 
@@ -36,10 +42,9 @@ class ViewerPainting {
     ViewerPainting(const ViewerPainting&) = delete;
     ViewerPainting& operator=(const ViewerPainting&) = delete;
 
-    /// A recording was opened, with these regions or null. Returns the maps to lay on it. For the
-    /// same recording, reopened with other depth options, all is as painted so far.
-    [[nodiscard]] std::shared_ptr<const TouchMaps> begin(FoundMaps found,
-                                                         std::shared_ptr<const Regions> regions,
+    /// A recording was opened. Returns the maps to lay on it. For the same recording, reopened with
+    /// other depth options, all is as painted so far.
+    [[nodiscard]] std::shared_ptr<const TouchMaps> begin(FoundMaps found, FoundRegions regions,
                                                          const MediaDescription& media,
                                                          bool is_sample);
     /// A session is replayed: painting ends.
@@ -106,7 +111,7 @@ class ViewerPainting {
     std::filesystem::path depth_{};  // depth file of the open recording; empty: none
     int columns_{0}, rows_{0};
     bool is_sample_{false};
-    std::string refusal_{};
+    std::string refusal_{}, regions_refusal_{};
     Painted painted_{};
     std::shared_ptr<const TouchMaps> felt_{};  // as the tick uses them
     std::vector<Painted> before_{}, undone_{};

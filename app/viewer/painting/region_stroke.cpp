@@ -42,7 +42,8 @@ RegionStroke::RegionStroke(const Regions* before, const Region& region, double r
     label_ = static_cast<std::uint8_t>(found - all.begin() + 1);
 }
 
-void RegionStroke::go_to(const Vec3& place) {
+bool RegionStroke::go_to(const Vec3& place) {
+    if (last_ == place) return false;
     const Vec3 from = last_.value_or(place);
     const double way = std::hypot(place.x - from.x, place.y - from.y);
     const int discs = std::max(static_cast<int>(std::ceil(kDiscsPerRadius * way / radius_px_)), 1);
@@ -51,6 +52,12 @@ void RegionStroke::go_to(const Vec3& place) {
         dab(from.x + share * (place.x - from.x), from.y + share * (place.y - from.y));
     }
     last_ = place;
+    return true;
+}
+
+bool RegionStroke::has_changed(const Regions* before) const {
+    return before == nullptr || before->labels != regions_.labels ||
+           before->regions != regions_.regions;
 }
 
 void RegionStroke::dab(double x, double y) {

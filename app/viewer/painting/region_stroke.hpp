@@ -20,11 +20,14 @@ class RegionStroke {
     RegionStroke(const Regions* before, const Region& region, double radius_px, int columns,
                  int rows);
 
-    /// Moves the brush to `place` of the image in a straight line, painting on the way.
-    void go_to(const Vec3& place);
+    /// Moves the brush to `place` of the image in a straight line, painting on the way. False: the
+    /// brush was there already.
+    bool go_to(const Vec3& place);
 
     /// The regions after the stroke so far.
     [[nodiscard]] const Regions& regions() const noexcept { return regions_; }
+    /// Whether they differ from those before; null: there were none.
+    [[nodiscard]] bool has_changed(const Regions* before) const;
 
   private:
     void dab(double x, double y);

@@ -17,6 +17,8 @@ inline constexpr std::size_t kMostRegionText = 600;
 struct Region {
     std::string name{};  ///< "Nose"
     std::string text{};  ///< a sentence or more on it; may be empty
+
+    bool operator==(const Region&) const = default;
 };
 
 /// One label picture for the whole recording, or several spread evenly in time for one in which

@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -190,6 +192,13 @@ std::string table_text(const Regions& regions) {
     return out.str();
 }
 
+/// Nothing: there is no such file.
+std::optional<std::string> bytes_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) return std::nullopt;
+    return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
 void remove_file(const fs::path& file) {
     std::error_code failed;
     fs::remove(file, failed);
@@ -225,14 +234,22 @@ void write_regions(const Regions* regions, const fs::path& depth) {
         remove_file(file);
         return;
     }
+    if (is_file(file) && !is_file(names))
+        refuse(file, "is there without a table of regions; move it away, then paint again");
     set_up_libraries();
     cv::Mat picture(regions->rows * regions->pictures, regions->columns, CV_8UC1);
     const auto level = [&](std::uint8_t label) {
         return static_cast<std::uint8_t>(level_of(label, regions->regions.size()));
     };
     std::ranges::transform(regions->labels, picture.begin<std::uint8_t>(), level);
+    const std::optional<std::string> before = bytes_of(file);
     write_file(file, encoded_png(picture));
-    write_file(names, table_text(*regions));
+    try {
+        write_file(names, table_text(*regions));
+    } catch (const InputError&) {  // the old table names the levels of the old picture
+        if (before) write_file(file, *before);
+        throw;
+    }
 }
 
 }  // namespace dibhr

@@ -15,8 +15,9 @@ namespace dibhr {
 [[nodiscard]] std::shared_ptr<const Regions> read_regions(const std::filesystem::path& depth,
                                                           int columns, int rows);
 
-/// Writes both files beside the depth, each whole or not at all; null: removes them. Throws
-/// InputError.
+/// Writes both files beside the depth, each whole or not at all; where the table cannot be written
+/// the picture is the old one again. Null: removes them. Throws InputError; also for a picture
+/// without a table, which is not replaced.
 void write_regions(const Regions* regions, const std::filesystem::path& depth);
 
 }  // namespace dibhr

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/app/viewer/speech_bench.hpp"
 #include "tests/support/catch.hpp"
@@ -25,8 +26,8 @@ fs::path led(const TemporaryFolder& folder) {
 
 WindowProgram view_sample(const Desk& desk, const TemporaryFolder& folder,
                           const std::vector<std::string>& more = {},
-                          std::vector<std::string> host = {}) {
-    std::vector<std::string> arguments{"--device", "mouse", "--pause", "--no-sync"};
+                          std::vector<std::string> host = {}, const std::string& device = "mouse") {
+    std::vector<std::string> arguments{"--device", device, "--pause", "--no-sync"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const auto first = first_start(folder);
     host.insert(host.begin(), first.begin(), first.end());
@@ -103,19 +104,46 @@ TEST_CASE("whoever does nothing is led to the end at ten pictures a second and e
     REQUIRE(viewer.wait() == 0);
 }
 
-TEST_CASE("nobody is led over another recording or where the program ends by itself or in a kiosk",
+TEST_CASE("nobody is led where something else was asked for than to touch with the mouse",
           "[lead]") {
     const Desk desk;
     const TemporaryFolder folder;
-    const std::vector<std::string> with =
-        GENERATE(std::vector<std::string>{"--seconds", "600"}, std::vector<std::string>{"--kiosk"},
-                 std::vector<std::string>{"--full-screen"},
-                 std::vector<std::string>{"--screenshot", "last.png"});
+    using Options = std::vector<std::string>;
+    const Options with =
+        GENERATE(Options{"--seconds", "600"}, Options{"--kiosk"}, Options{"--full-screen"},
+                 Options{"--screenshot", "last.png"}, Options{"--record", "a.dibhr"});
     WindowProgram viewer = view_sample(desk, folder, with);
     viewer.wait_for_surface();
     viewer.wait_for_turn();
     CHECK(viewer.seen().lead == 0);
-    CHECK_FALSE(fs::exists(led(folder)));
     desk.press("key ctrl+shift+q key q");
     REQUIRE(viewer.wait() == 0);
+    CHECK_FALSE(fs::exists(led(folder)));
+}
+
+TEST_CASE("nobody is led by a mouse where a force device is named", "[lead]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    WindowProgram viewer = view_sample(desk, folder, {}, {}, "falcon");
+    viewer.wait_for_surface();
+    viewer.wait_for_turn();
+    CHECK(viewer.seen().lead == 0);
+    desk.press("key q");
+    REQUIRE(viewer.wait() == 0);
+    CHECK_FALSE(fs::exists(led(folder)));
+}
+
+TEST_CASE("nobody is led over another recording", "[lead]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    write_depth_png(folder / "cup_depth.png", 60, 40, 120);
+    auto host = first_start(folder);
+    WindowProgram viewer =
+        desk.start_viewer(folder, {"cup_depth.png", "--device", "mouse", "--no-sync"}, host);
+    viewer.wait_for_surface();
+    viewer.wait_for_turn();
+    CHECK(viewer.seen().lead == 0);
+    desk.press("key q");
+    REQUIRE(viewer.wait() == 0);
+    CHECK_FALSE(fs::exists(led(folder)));
 }

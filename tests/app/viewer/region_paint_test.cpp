@@ -45,6 +45,17 @@ void press_until(const WindowProgram& viewer, const std::string& key, const std:
     REQUIRE(viewer.seen().focus.str().starts_with(label));
 }
 
+/// By keyboard, as the Paint panel has it.
+void choose_region_brush(const WindowProgram& viewer) {
+    viewer.act("key g key F6 key F6");
+    press_until(viewer, "Tab", "Paints");
+    viewer.act("key Return");
+    viewer.wait_until([](const Seen& now) { return now.focus_kind.str() == "entry"; });
+    press_until(viewer, "Down", "Region");
+    viewer.act("key Return");
+    viewer.wait_until([](const Seen& now) { return now.focus.str() == "Paints"; });
+}
+
 }  // namespace
 
 TEST_CASE("a region lies where the brush has passed and nowhere else", "[regions]") {
@@ -63,7 +74,7 @@ TEST_CASE("a region lies where the brush has passed and nowhere else", "[regions
 
 TEST_CASE("a region is painted on top in every label picture of another size", "[regions]") {
     Regions before{kColumns / 2, kRows / 2, 3, 2.0, {}, {{"Cup", ""}}};
-    before.labels.assign(3U * (kColumns / 2) * (kRows / 2), 1);
+    before.labels.assign(std::size_t{3} * (kColumns / 2) * (kRows / 2), 1);
     const Regions regions = stroke_of(&before, {"Handle", ""}, {{30, 20, 0}});
     CHECK(regions.pictures == 3);
     for (const double media_s : {0.0, 0.6, 1.1}) {
@@ -123,13 +134,7 @@ TEST_CASE("a region that is named and painted in the window is touched by its na
     {
         WindowProgram viewer = desk.start_viewer(folder, cup_options({"--record", "a.dibhr"}));
         viewer.wait_for_surface();
-        viewer.act("key g key F6 key F6");
-        press_until(viewer, "Tab", "Paints");
-        viewer.act("key Return");
-        viewer.wait_until([](const Seen& now) { return now.focus_kind.str() == "entry"; });
-        press_until(viewer, "Down", "Region");
-        viewer.act("key Return");
-        viewer.wait_until([](const Seen& now) { return now.focus.str() == "Paints"; });
+        choose_region_brush(viewer);
         press_until(viewer, "Tab", "Name");
         viewer.act("key Return type handle key Return");
         viewer.wait_until([](const Seen& now) { return now.focus_value.str() == "handle"; });
@@ -161,13 +166,7 @@ TEST_CASE("without a name no region is painted and the window says what to do", 
     write_depth_png(folder / "cup_depth.png", kWide, kHigh, 120);
     WindowProgram viewer = desk.start_viewer(folder, cup_options());
     viewer.wait_for_surface();
-    viewer.act("key g key F6 key F6");
-    press_until(viewer, "Tab", "Paints");
-    viewer.act("key Return");
-    viewer.wait_until([](const Seen& now) { return now.focus_kind.str() == "entry"; });
-    press_until(viewer, "Down", "Region");
-    viewer.act("key Return");
-    viewer.wait_until([](const Seen& now) { return now.focus.str() == "Paints"; });
+    choose_region_brush(viewer);
     viewer.act(std::string(kLeft) + " mousedown 1");
     viewer.wait_until([](const Seen& now) { return contains(now.message.str(), "no name"); });
     viewer.act("mouseup 1");
@@ -175,4 +174,40 @@ TEST_CASE("without a name no region is painted and the window says what to do", 
     CHECK_FALSE(viewer.seen().can_undo);
     desk.press("key Escape key q");
     REQUIRE(viewer.wait() == 0);
+}
+
+TEST_CASE("regions that cannot be read stay as they are and none is painted over them",
+          "[regions]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    write_depth_png(folder / "cup_depth.png", kWide, kHigh, 120);
+    const std::string table = "# made by hand\n[[region]]\nname = 3\n";
+    write_text(folder / "cup_regions.toml", table);
+    WindowProgram viewer = desk.start_viewer(folder, cup_options());
+    viewer.wait_until([](const Seen& now) { return !now.message.str().empty(); });
+    viewer.act("key Escape");
+    viewer.wait_for_surface();
+    choose_region_brush(viewer);
+    press_until(viewer, "Tab", "Name");
+    viewer.act("key Return type handle key Return");
+    viewer.wait_until([](const Seen& now) { return now.focus_value.str() == "handle"; });
+    viewer.act(std::string(kLeft) + " mousedown 1");
+    viewer.wait_until(
+        [](const Seen& now) { return contains(now.message.str(), "No region can be painted"); });
+    viewer.act("mouseup 1");
+    CHECK(viewer.seen().regions == 0);
+    desk.press("key Escape key q");
+    REQUIRE(viewer.wait() == 0);
+    CHECK(read_text(folder / "cup_regions.toml") == table);
+    CHECK_FALSE(fs::exists(folder / "cup_regions.png"));
+}
+
+TEST_CASE("a stroke that erases nothing leaves the regions as they were", "[regions]") {
+    const Regions cup = stroke_of(nullptr, {"Cup", ""}, {{10, 20, 0}});
+    RegionStroke beside(&cup, {}, kRadius, kColumns, kRows);
+    CHECK(beside.go_to({40, 20, 0}));
+    CHECK_FALSE(beside.go_to({40, 20, 0}));
+    CHECK_FALSE(beside.has_changed(&cup));
+    beside.go_to({10, 20, 0});
+    CHECK(beside.has_changed(&cup));
 }

@@ -139,6 +139,10 @@ TEST_CASE("a recording without a table of regions has none", "[regions]") {
     CHECK(read_regions(folder / "cup_depth.mp4", kWide, kHigh) == nullptr);
     write_labels(folder / "cup_regions.png", {12});  // may be anything
     CHECK(read_regions(folder / "cup_depth.mp4", kWide, kHigh) == nullptr);
+    const std::string picture = read_text(folder / "cup_regions.png");
+    const Regions painted{1, 1, 1, 0.0, {1}, {{"Cup", ""}}};
+    CHECK_THROWS_AS(write_regions(&painted, folder / "cup_depth.mp4"), InputError);
+    CHECK(read_text(folder / "cup_regions.png") == picture);
     CHECK(read_regions({}, kWide, kHigh) == nullptr);
 }
 
