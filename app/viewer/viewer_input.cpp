@@ -63,6 +63,7 @@ void Viewer::take_keys(const WindowInput& input) {
             take(*action, press.at);
     }
     if (typing || text_opens()) return;
+    gui_.drop_characters();  // they were keys: no field that opens later may read them
     const bool space_is_taken = gui_.focus().on() || key_hand_.on();
     for (const TypedCharacter& typed : input.characters) {
         if (typed.code == ' ' && space_is_taken) continue;

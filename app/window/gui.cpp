@@ -187,6 +187,11 @@ void set_style(const GuiStyle& gui_style) {
     set_colours(style, gui_style.theme);
 }
 
+/// Whether a field has the keyboard in the next picture.
+bool field_reads() {
+    return ImGui::GetCurrentContext()->WantTextInputNextFrame == 1;
+}
+
 }  // namespace
 
 Gui::Gui(const Window& window, const GuiStyle& gui_style) : style_(gui_style) {
@@ -233,10 +238,13 @@ void Gui::lay_out_in_pixels() {
     scale_pointer(pixels, events_left_);
 }
 
+void Gui::drop_characters() {
+    if (!field_reads()) static_cast<void>(take_characters());
+}
+
 /// A field reads characters only in the picture after the one in which it gets the keyboard.
 void Gui::keep_early_text(bool text_opens) {
-    const bool reads = ImGui::GetCurrentContext()->WantTextInputNextFrame == 1;
-    const bool keeps = text_opens && !reads;
+    const bool keeps = text_opens && !field_reads();
     if (!keeps && early_text_.empty()) return;
     for (const unsigned character : take_characters()) {
         const bool opened_it = character == ' ' && early_text_.empty();

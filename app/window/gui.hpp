@@ -44,6 +44,8 @@ class Gui {
     /// Begins a picture; panels may be drawn until end(). `pressed`: keys since the last picture.
     /// `text_opens`: a text is about to be typed in, and gets the characters that came too early.
     void begin(std::span<const KeyPress> pressed, bool text_opens = false);
+    /// Drops the characters since the last picture, unless a field reads them.
+    void drop_characters();
     void end();
     void draw();  ///< draws the panels, as of the last end(), into the bound framebuffer
 
