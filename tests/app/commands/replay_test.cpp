@@ -549,8 +549,12 @@ TEST_CASE("a session of every schema is read by every command, and replayed to i
     const TemporaryFolder folder;
     write_depth_png(folder / "hill_depth.png", 60, 40, 60, 2);
     write_depth_png(folder / "hill_color.png", 60, 40, 10, 1);
-    const auto& [name, ticks] = GENERATE(from_range(std::vector<std::pair<std::string, int>>{
-        {"schema_1", 3}, {"schema_2_first_view", 80}, {"schema_2_first", 80}, {"schema_3", 500}}));
+    const auto& [name, ticks] =
+        GENERATE(from_range(std::vector<std::pair<std::string, int>>{{"schema_1", 3},
+                                                                     {"schema_2_first_view", 80},
+                                                                     {"schema_2_first", 80},
+                                                                     {"schema_3", 500},
+                                                                     {"schema_4", 500}}));
     CAPTURE(name);
     run_shell(folder, "sqlite3 old.dibhr \".read '" DIBHR_SOURCE_DIR "/tests/data/sessions/" +
                           name + ".sql'\"");

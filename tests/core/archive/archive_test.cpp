@@ -355,7 +355,7 @@ TEST_CASE("a disk too full for what can be read of a damaged session is said of 
 TEST_CASE("sessions of every schema are archived", "[archive]") {
     const Recordings recordings;
     const std::string name = GENERATE(as<std::string>(), "schema_1", "schema_2_first",
-                                      "schema_2_first_view", "schema_3");
+                                      "schema_2_first_view", "schema_3", "schema_4");
     CAPTURE(name);
     const fs::path file = recordings.home / "old.dibhr";
     REQUIRE(change(
