@@ -286,7 +286,9 @@ double Viewer::most_pictures_per_s() const {
 /// Whether the next frame replaces a picture before anybody sees its last detail, with which the
 /// processor draws twice as long. The picture that stays has the detail; a replay always has.
 bool Viewer::pictures_pass() const {
-    return video_runs() && (software_ || most_pictures_per_s() > 0.0);
+    constexpr int kManyColumns = 960;  // the half of fewer shows at outlines
+    const bool software_saves = software_ && state_.media.depth_columns >= kManyColumns;
+    return video_runs() && (software_saves || most_pictures_per_s() > 0.0);
 }
 
 void Viewer::poll() {

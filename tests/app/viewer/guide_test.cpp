@@ -48,6 +48,25 @@ TEST_CASE("the region under the finger is named and its text follows when the fi
     REQUIRE(viewer.wait() == 0);
 }
 
+TEST_CASE("a replay names the region that was touched", "[guide]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    write_cup(folder);
+    WindowProgram viewer = desk.start_viewer(folder, cup_options({"--record", "a.dibhr"}));
+    viewer.wait_for_surface();
+    viewer.act(std::string(kLeft) + " mousedown 1");
+    viewer.wait_until([](const Seen& now) { return now.region.str() == "Cup"; });
+    viewer.wait_until([rows = viewer.seen().recorded_rows](const Seen& now) {
+        return now.contact && now.recorded_rows > rows + 500;
+    });
+    desk.press("mouseup 1 key q");
+    REQUIRE(viewer.wait() == 0);
+    WindowProgram replay = desk.start_viewer(folder, {"a.dibhr", "--size", kSize});
+    replay.wait_until([](const Seen& now) { return now.replays && now.region.str() == "Cup"; });
+    desk.press("key q");
+    REQUIRE(replay.wait() == 0);
+}
+
 TEST_CASE("captions beside a recording are shown in their time", "[guide]") {
     const Desk desk;
     const TemporaryFolder folder;

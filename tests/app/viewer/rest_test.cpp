@@ -24,6 +24,9 @@ constexpr int kRate = 20;  ///< frames of the film in a second
 /// Ten seconds of film that moves, and of one that does not, as sources of ffmpeg.
 const std::string kMoving = "testsrc=s=64x48:r=" + std::to_string(kRate) + ":d=10";
 const std::string kStill = "testsrc=s=64x48:r=" + std::to_string(kRate) + ":d=0.05,loop=199:1";
+/// The same with many columns.
+const std::string kWideStill =
+    "testsrc=s=1280x96:r=" + std::to_string(kRate) + ":d=0.05,loop=199:1";
 
 /// Film, opened in a small window.
 struct FilmWindow {
@@ -154,15 +157,16 @@ TEST_CASE("software draws a video that runs once a frame", "[rest]") {
     film.quit();
 }
 
-TEST_CASE("software draws a video that runs coarsely, and where it stops as if it had never run",
-          "[rest]") {
+TEST_CASE(
+    "software draws a large video that runs coarsely, and where it stops as if it had never run",
+    "[rest]") {
     std::vector<std::string> coarse;
     {
-        FilmWindow film({"--pause"}, kStill, "[look]\ncoarse = true\n");
+        FilmWindow film({"--pause"}, kWideStill, "[look]\ncoarse = true\n");
         coarse = film.relief_at_rest();
         film.quit();
     }
-    FilmWindow film({"--pause"}, kStill);
+    FilmWindow film({"--pause"}, kWideStill);
     const std::vector<std::string> fine = film.relief_at_rest();
     CHECK(fine != coarse);
     film.desk.press("mousemove 10 10 key space");
