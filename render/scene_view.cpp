@@ -95,4 +95,10 @@ ColourImage read_framebuffer(glm::ivec2 size) {
     return image;
 }
 
+void clear_area(glm::ivec2 lower_left, glm::ivec2 size, glm::vec3 colour) {
+    glScissor(lower_left.x, lower_left.y, size.x, size.y);
+    glClearColor(colour.x, colour.y, colour.z, 1.0F);
+    glClear(GL_COLOR_BUFFER_BIT);
+}
+
 }  // namespace dibhr

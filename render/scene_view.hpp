@@ -117,4 +117,7 @@ class SceneView {
 /// The picture in the bound framebuffer, rows from the top (for screenshots with panels).
 [[nodiscard]] ColourImage read_framebuffer(glm::ivec2 size);
 
+/// Fills an area of the bound framebuffer [px from its lower left] with an opaque colour.
+void clear_area(glm::ivec2 lower_left, glm::ivec2 size, glm::vec3 colour);
+
 }  // namespace dibhr

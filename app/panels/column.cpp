@@ -4,6 +4,7 @@
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
+#include "render/scene_view.hpp"
 
 namespace dibhr {
 
@@ -20,10 +21,23 @@ float panel_column_width(const ViewerState& state) {
     return std::floor(std::min(kColumnWidth * ui.scale, kMostOfWindow * ui.window_width));
 }
 
+/// Cleared, as software takes several times as long for a rectangle that is blended.
 void draw_panel_ground(const ViewerState& state) {
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float width = panel_column_width(state);
-    if (width > 0.0F) fill_under_panels({display.x - width, 0.0F}, {display.x, display.y});
+    if (!(width > 0.0F)) return;
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImDrawList& under = *ImGui::GetBackgroundDrawList();
+    under.PushClipRect({display.x - width, 0.0F}, display);
+    under.AddCallback(
+        [](const ImDrawList*, const ImDrawCmd* command) {
+            const ImVec4& area = command->ClipRect;
+            const auto px = [](float length) { return static_cast<int>(length); };
+            const ImVec4& colour = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
+            clear_area({px(area.x), px(ImGui::GetDrawData()->DisplaySize.y - area.w)},
+                       {px(area.z - area.x), px(area.w - area.y)}, {colour.x, colour.y, colour.z});
+        },
+        nullptr);
+    under.PopClipRect();
 }
 
 void draw_panel_column(ViewerState& state, Transport& transport) {

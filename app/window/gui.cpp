@@ -1,8 +1,7 @@
 // Dear ImGui's context, fonts and theme.
 #include "app/window/gui.hpp"
 
-#include <epoxy/gl.h>
-// After epoxy, which brings the OpenGL declarations.
+#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
@@ -274,25 +273,6 @@ void Gui::begin(std::span<const KeyPress> pressed, bool text_opens) {
 void Gui::end() {
     focus_.end(style_.scale);
     ImGui::Render();
-}
-
-void fill_under_panels(glm::vec2 least, glm::vec2 most) {
-    ImDrawList& under = *ImGui::GetBackgroundDrawList();
-    under.PushClipRect({least.x, least.y}, {most.x, most.y});
-    under.AddCallback(
-        [](const ImDrawList*, const ImDrawCmd* command) {
-            const ImDrawData& data = *ImGui::GetDrawData();
-            const ImVec2 scale = data.FramebufferScale;
-            const ImVec4& area = command->ClipRect;
-            const auto px = [](float length) { return static_cast<GLint>(length); };
-            glScissor(px(area.x * scale.x), px((data.DisplaySize.y - area.w) * scale.y),
-                      px((area.z - area.x) * scale.x), px((area.w - area.y) * scale.y));
-            const ImVec4& colour = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
-            glClearColor(colour.x, colour.y, colour.z, 1.0F);
-            glClear(GL_COLOR_BUFFER_BIT);
-        },
-        nullptr);
-    under.PopClipRect();
 }
 
 void Gui::draw() {

@@ -29,10 +29,6 @@ struct GuiStyle {
     bool operator==(const GuiStyle&) const = default;
 };
 
-/// Fills an area [px], under all panels, with the opaque colour of windows, for a panel without
-/// background: software takes several times as long for a rectangle that is blended.
-void fill_under_panels(glm::vec2 least, glm::vec2 most);
-
 /// Made after the window (it chains the window's callbacks), destroyed before it.
 class Gui {
   public:

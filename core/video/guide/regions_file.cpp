@@ -17,15 +17,15 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/text_file.hpp"
-#include "core/video/formats/libraries.hpp"
-#include "core/video/modules/picture_codecs.hpp"
 #include "core/video/sources/beside_recording.hpp"
+#include "core/video/sources/picture_files.hpp"
 #include "core/video/sources/readers.hpp"
 
 namespace dibhr {
@@ -236,14 +236,12 @@ void write_regions(const Regions* regions, const fs::path& depth) {
     }
     if (is_file(file) && !is_file(names))
         refuse(file, "is there without a table of regions; move it away, then paint again");
-    set_up_libraries();
-    cv::Mat picture(regions->rows * regions->pictures, regions->columns, CV_8UC1);
-    const auto level = [&](std::uint8_t label) {
+    std::vector<std::uint8_t> levels(regions->labels.size());
+    std::ranges::transform(regions->labels, levels.begin(), [&](std::uint8_t label) {
         return static_cast<std::uint8_t>(level_of(label, regions->regions.size()));
-    };
-    std::ranges::transform(regions->labels, picture.begin<std::uint8_t>(), level);
+    });
     const std::optional<std::string> before = bytes_of(file);
-    write_file(file, encoded_png(picture));
+    write_file(file, png_of(levels, regions->columns, regions->rows * regions->pictures));
     try {
         write_file(names, table_text(*regions));
     } catch (const InputError&) {  // the old table names the levels of the old picture

@@ -58,6 +58,12 @@ std::string png_of(const ColourImage& picture) {
     return encoded_png(bgr);
 }
 
+std::string png_of(std::span<const std::uint8_t> levels, int columns, int rows) {
+    set_up_libraries();
+    return encoded_png(cv::Mat(rows, columns, CV_8UC1,
+                               const_cast<std::uint8_t*>(levels.data())));  // only read
+}
+
 namespace {
 
 void write_png_into(OutputFile& out, const ColourImage& picture, const fs::path& file) {

@@ -1,7 +1,9 @@
 // Single pictures: read from files of any form, and written as PNG.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "core/haptics/depth_image.hpp"
@@ -17,6 +19,9 @@ namespace dibhr {
 
 /// The bytes of an RGB picture's PNG file. Throws InputError for an empty picture.
 [[nodiscard]] std::string png_of(const ColourImage& picture);
+
+/// The bytes of a grey picture's PNG file: `levels` row by row, columns x rows of them.
+[[nodiscard]] std::string png_of(std::span<const std::uint8_t> levels, int columns, int rows);
 
 /// Writes an RGB picture as PNG, whole or not at all. Throws InputError.
 void write_png(const ColourImage& picture, const std::filesystem::path& file);

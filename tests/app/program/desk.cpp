@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -26,6 +27,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr const char* kState = ".state";       // of the program's home; no dialog lists it
 constexpr std::chrono::seconds kPatience{60};  // only reached by a failure
 
 /// In the child, between fork and exec.
@@ -211,8 +213,8 @@ WindowProgram Desk::start_viewer(const TemporaryFolder& folder,
 WindowProgram Desk::start(const TemporaryFolder& folder,
                           const std::vector<std::string>& program_words,
                           const std::vector<std::string>& host) const {
-    fs::create_directories(folder / "state" / "dibhr");
-    write_text(folder / "state" / "dibhr" / "led", "");
+    fs::create_directories(folder / kState / "dibhr");
+    write_text(folder / kState / "dibhr" / "led", "");
     std::vector<std::string> words{"env", "-C", folder.path().string()};
     words.insert(words.end(), host.begin(), host.end());
     words.emplace_back(WATCHED_PROGRAM);
@@ -223,7 +225,7 @@ WindowProgram Desk::start(const TemporaryFolder& folder,
          "SDL_AUDIODRIVER=dummy",
          "DBUS_SESSION_BUS_ADDRESS=disabled:", "XDG_CONFIG_HOME=" + (folder / "config").string(),
          "XDG_DATA_HOME=" + (folder / "data").string(),
-         "XDG_STATE_HOME=" + (folder / "state").string()},
+         "XDG_STATE_HOME=" + (folder / kState).string()},
         folder, server_->seat());
 }
 
@@ -288,6 +290,9 @@ void require_same_bits(const TemporaryFolder& folder, const fs::path& session) {
         return read_text(told);
     };
     REQUIRE(contains(replay(""), "identical, bit for bit"));
+    const std::vector<Row> rows = read_session(session);
+    const auto touches = [](const Row& row) { return row.contact; };
+    if (std::none_of(rows.begin(), rows.end(), touches)) return;  // it may hold no surface
     // As if its video were deleted.
     REQUIRE(contains(replay("--surface-from session"), "identical, bit for bit"));
     const std::string all = replay(

@@ -8,6 +8,7 @@
 #include "tests/app/viewer/speech_bench.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/eventually.hpp"
+#include "tests/support/text.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -121,10 +122,11 @@ TEST_CASE("nobody is led where something else was asked for than to touch with t
     CHECK_FALSE(fs::exists(led(folder)));
 }
 
-TEST_CASE("nobody is led by a mouse where a force device is named", "[lead]") {
+TEST_CASE("nobody is led where the mouse is not the hand", "[lead]") {
     const Desk desk;
     const TemporaryFolder folder;
-    WindowProgram viewer = view_sample(desk, folder, {}, {}, "falcon");
+    write_text(folder / "goals.csv", "t,x,y,z\n0,320,240,150\n");
+    WindowProgram viewer = view_sample(desk, folder, {}, {}, "goals:goals.csv");
     viewer.wait_for_surface();
     viewer.wait_for_turn();
     CHECK(viewer.seen().lead == 0);
