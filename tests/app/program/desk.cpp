@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kState = ".state";       // of the program's home; no dialog lists it
+constexpr const char* kState = "state";        // of the program, in the test's folder
 constexpr std::chrono::seconds kPatience{60};  // only reached by a failure
 
 /// In the child, between fork and exec.

@@ -546,7 +546,7 @@ TEST_CASE("a window that stays shows what cannot be opened, and opens something 
         viewer.act("key " + key);
     viewer.act("key n key g mousemove 200 300 mousedown 1 mouseup 1");
     CHECK_FALSE(viewer.seen().open);
-    viewer.act("key ctrl+o");
+    viewer.act("key ctrl+o type cup");
     viewer.wait_until([](const Seen& now) { return now.dialog && now.dialog_entries == 1; });
     viewer.act("key Return");
     viewer.wait_for_surface();

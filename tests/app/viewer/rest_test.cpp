@@ -171,8 +171,8 @@ TEST_CASE(
     CHECK(fine != coarse);
     film.desk.press("mousemove 10 10 key space");
     CHECK(eventually([&] { return film.relief() == coarse; }));
-    film.desk.press("key space");
-    film.viewer.wait_until([](const Seen& now) { return !now.playing; });
+    film.desk.press("key space key Home");
+    film.viewer.wait_until([](const Seen& now) { return !now.playing && now.media_s == 0.0; });
     CHECK(film.relief_at_rest() == fine);
     film.quit();
 }
