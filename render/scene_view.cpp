@@ -96,6 +96,7 @@ ColourImage read_framebuffer(glm::ivec2 size) {
 }
 
 void clear_area(glm::ivec2 lower_left, glm::ivec2 size, glm::vec3 colour) {
+    glEnable(GL_SCISSOR_TEST);
     glScissor(lower_left.x, lower_left.y, size.x, size.y);
     glClearColor(colour.x, colour.y, colour.z, 1.0F);
     glClear(GL_COLOR_BUFFER_BIT);

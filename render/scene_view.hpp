@@ -117,7 +117,8 @@ class SceneView {
 /// The picture in the bound framebuffer, rows from the top (for screenshots with panels).
 [[nodiscard]] ColourImage read_framebuffer(glm::ivec2 size);
 
-/// Fills an area of the bound framebuffer [px from its lower left] with an opaque colour.
+/// Fills an area of the bound framebuffer [px from its lower left] with an opaque colour. Leaves
+/// the scissor test on, with this area.
 void clear_area(glm::ivec2 lower_left, glm::ivec2 size, glm::vec3 colour);
 
 }  // namespace dibhr

@@ -76,6 +76,12 @@ void draw_mouse(ImDrawList& list, ImVec2 middle, float s, bool pressed) {
     list.AddLine({low.x, seam}, {high.x, seam}, kInk, 1.6F * s);
 }
 
+/// The pointer, and the mouse to its lower right.
+void draw_hand(ImDrawList& list, const Hand& hand, float scale) {
+    draw_pointer(list, hand.at, 1.4F * scale);
+    draw_mouse(list, {hand.at.x + 50.0F * scale, hand.at.y + 34.0F * scale}, scale, hand.pressed);
+}
+
 void draw_tick(ImDrawList& list, ImVec2 middle, float r) {
     const ImVec2 line[] = {{middle.x - 0.5F * r, middle.y},
                            {middle.x - 0.1F * r, middle.y + 0.4F * r},
@@ -107,8 +113,7 @@ void draw_on_relief(ImDrawList& list, const LeadShown& lead, const std::vector<I
             static_cast<std::size_t>(std::lround(hand.share * static_cast<float>(way.size() - 1)));
         draw_line(list, way, count + 1, kInk, 5.0F * scale);
     }
-    draw_pointer(list, hand.at, 1.4F * scale);
-    draw_mouse(list, {hand.at.x + 50.0F * scale, hand.at.y + 34.0F * scale}, scale, hand.pressed);
+    draw_hand(list, hand, scale);
 }
 
 /// Around a button of a panel; the mouse is beside it, where it hides no other.
@@ -125,8 +130,7 @@ void draw_on_button(ImDrawList& list, const LeadShown& lead, float scale) {
     // The tip leaves the name free.
     const Hand hand = hand_on({{right - 4.0F * scale, bottom - 4.0F * scale}}, lead.time_s, scale);
     if (hand.pressed) list.AddRectFilled(low, high, kGlow, round);
-    draw_pointer(list, hand.at, 1.4F * scale);
-    draw_mouse(list, {hand.at.x + 50.0F * scale, hand.at.y + 34.0F * scale}, scale, hand.pressed);
+    draw_hand(list, hand, scale);
 }
 
 /// Which step of the three it is, and a button that skips them.

@@ -22,26 +22,22 @@ constexpr double kStays_s = 3.0;
 
 FoundGuide find_guide(const MediaDescription& media) {
     FoundGuide found;
-    /// Returns why the step failed; empty: it did not.
-    const auto attempt = [&found](const auto& step, const char* without) -> std::string {
-        try {
-            step();
-            return {};
-        } catch (const std::exception& error) {
-            found.trouble += (found.trouble.empty() ? "" : "\n\n") + std::string(error.what()) +
-                             "\n\nThe recording is touched without " + without + ".";
-            return error.what();
-        }
+    const auto report = [&found](const std::exception& error, const char* without) {
+        found.trouble += (found.trouble.empty() ? "" : "\n\n") + std::string(error.what()) +
+                         "\n\nThe recording is touched without " + without + ".";
     };
-    FoundRegions& found_regions = found.regions;
-    found_regions.refusal = attempt(
-        [&] {
-            found_regions.regions =
-                read_regions(media.depth_path, media.depth_columns, media.depth_rows);
-        },
-        "named regions");
-    static_cast<void>(
-        attempt([&] { found.captions = read_captions(media.depth_path); }, "captions"));
+    try {
+        found.regions.regions =
+            read_regions(media.depth_path, media.depth_columns, media.depth_rows);
+    } catch (const std::exception& error) {
+        found.regions.refusal = error.what();
+        report(error, "named regions");
+    }
+    try {
+        found.captions = read_captions(media.depth_path);
+    } catch (const std::exception& error) {
+        report(error, "captions");
+    }
     return found;
 }
 

@@ -79,15 +79,10 @@ Run longest_run(const Regions& regions, int picture, int row, std::uint8_t label
     return longest;
 }
 
-/// Whether the proxy touches the region of that name.
-bool touches(const DepthBlend& shown, const ViewerState& state, const Regions& regions,
-             const char* name) {
-    const Proxy& proxy = state.touch.haptic.touch.proxy;
-    if (!proxy.contact || !state.touch.haptic.touchable) return false;
-    const DepthImage& image = *shown.from->drawn();
-    const Region* const here = regions.at(proxy.position.x, proxy.position.y, image.columns,
-                                          image.rows, shown.nearest().media_s);
-    return here != nullptr && here->name == name;
+/// Whether the proxy touches the region of that name, as the guide has found for this turn.
+bool touches(const ViewerState& state, const char* name) {
+    const HapticState& haptic = state.touch.haptic;
+    return haptic.touchable && haptic.touch.proxy.contact && state.ui.region.name == name;
 }
 
 const char* words_of(LeadStep step) {
@@ -206,13 +201,13 @@ void ViewerLead::find_jumper(const DepthBlend& shown) {
 bool ViewerLead::is_done(const DepthBlend& shown, const ViewerState& state) {
     switch (state.ui.lead->step) {
         case LeadStep::press:
-            return touches(shown, state, *regions_, kNose);
+            return touches(state, kNose);
         case LeadStep::choose:
             return state.touch.material.name != material_;
         case LeadStep::stroke:
             break;
     }
-    const bool on = touches(shown, state, *regions_, kJumper);
+    const bool on = touches(state, kJumper);
     const Vec3 now = state.touch.haptic.touch.proxy.position;
     if (on && stroked_to_) stroked_px_ += glm::distance(now, *stroked_to_);
     stroked_to_ = on ? std::optional(now) : std::nullopt;

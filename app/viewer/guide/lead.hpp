@@ -21,7 +21,7 @@ class ViewerLead {
     void begin(std::shared_ptr<const Regions> regions, const ViewerState& state, TaskQueue& saving);
     void end(ViewerState& state);
 
-    /// Once a turn, after the frames of this turn are known.
+    /// Once a turn, after the guide has named the region that is touched.
     void follow(const DepthBlend& shown, double now_s, ViewerState& state);
 
   private:
@@ -38,13 +38,13 @@ class ViewerLead {
 
     std::shared_ptr<const Regions> regions_{};  // null: does not lead
     TaskQueue* saving_{nullptr};
-    std::string material_{};            // in the begin
-    Place from_{}, to_{};               // the same for the nose
-    std::optional<int> picture_{};      // of which they are
-    double turn_s_{0.0};                // the last turn
-    double time_s_{0.0};                // since the begin
-    double since_s_{0.0};               // of it, the step's begin
-    std::optional<double> done_s_{};    // when the person had done it
+    std::string material_{};            // when the lead began
+    Place from_{}, to_{};               // of the way; of the nose only from_
+    std::optional<int> picture_{};      // the label picture in which they were found
+    double turn_s_{0.0};                // when the last turn was
+    double time_s_{0.0};                // since the first step began
+    double since_s_{0.0};               // of that time, when this step began
+    std::optional<double> done_s_{};    // likewise, when the person had done the step
     std::optional<Vec3> stroked_to_{};  // the proxy on the jumper in the last turn
     double stroked_px_{0.0};
 };

@@ -1,13 +1,14 @@
-// Small pictures by averaging whole squares of pixels.
+// Small pictures are JPEG files.
 #include "core/video/sources/preview_picture.hpp"
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/still_picture.hpp"
 #include "core/video/modules/picture_codecs.hpp"
 
@@ -15,27 +16,15 @@ namespace dibhr {
 
 namespace {
 
-constexpr int kJpegQuality = 1;  // OpenCV's IMWRITE_JPEG_QUALITY
-constexpr int kQuality = 75;     // of 100
-constexpr int kInColour = 1;     // OpenCV's IMREAD_COLOR
+constexpr int kQuality = 75;  // of 100
 
-/// Blue, green and red, each the mean of side x side pixels.
+/// Every `side` x `side` pixels as one, as OpenCV orders its channels.
 cv::Mat smaller(const ColourImage& image, int side) {
-    cv::Mat small(image.rows / side, image.columns / side, CV_8UC3);
-    for (int j = 0; j < small.rows; ++j) {
-        for (int i = 0; i < small.cols; ++i) {
-            std::array<int, 3> sum{};
-            for (int k = 0; k < side * side; ++k) {
-                const auto row = static_cast<std::size_t>(j * side + k / side);
-                const auto column = static_cast<std::size_t>(i * side + k % side);
-                const std::size_t at = 3 * (row * static_cast<std::size_t>(image.columns) + column);
-                for (std::size_t c = 0; c < 3; ++c) sum[c] += image.rgb[at + c];
-            }
-            auto& pixel = small.at<cv::Vec3b>(j, i);
-            for (std::size_t c = 0; c < 3; ++c)
-                pixel[2 - static_cast<int>(c)] = static_cast<std::uint8_t>(sum[c] / (side * side));
-        }
-    }
+    const cv::Mat rgb(image.rows, image.columns, CV_8UC3,
+                      const_cast<std::uint8_t*>(image.rgb.data()));  // only read
+    cv::Mat small;
+    cv::resize(rgb, small, {image.columns / side, image.rows / side}, 0.0, 0.0, cv::INTER_AREA);
+    cv::cvtColor(small, small, cv::COLOR_RGB2BGR);
     return small;
 }
 
@@ -47,7 +36,8 @@ std::string preview_of(const Frame& frame) try {
     const int side = (colour->columns + kWidestPreview - 1) / kWidestPreview;
     if (colour->rows < side) return {};
     std::vector<unsigned char> bytes;
-    if (!picture_codecs().encode(".jpg", smaller(*colour, side), bytes, {kJpegQuality, kQuality}))
+    if (!picture_codecs().encode(".jpg", smaller(*colour, side), bytes,
+                                 {cv::IMWRITE_JPEG_QUALITY, kQuality}))
         return {};
     return {bytes.begin(), bytes.end()};
 } catch (const cv::Exception&) {
@@ -58,19 +48,9 @@ std::string preview_of(const Frame& frame) try {
 
 std::shared_ptr<const ColourImage> picture_of_preview(const std::string& jpeg) try {
     const auto* const bytes = reinterpret_cast<const std::uint8_t*>(jpeg.data());
-    const cv::Mat picture = decoded_picture({bytes, jpeg.size()}, kInColour);
+    const cv::Mat picture = decoded_picture({bytes, jpeg.size()}, cv::IMREAD_COLOR);
     if (picture.empty() || picture.type() != CV_8UC3) return nullptr;
-    auto colour = std::make_shared<ColourImage>();
-    colour->columns = picture.cols;
-    colour->rows = picture.rows;
-    colour->rgb.reserve(3 * picture.total());
-    for (int j = 0; j < picture.rows; ++j) {
-        for (int i = 0; i < picture.cols; ++i) {
-            const auto& pixel = picture.at<cv::Vec3b>(j, i);
-            colour->rgb.insert(colour->rgb.end(), {pixel[2], pixel[1], pixel[0]});
-        }
-    }
-    return colour;
+    return std::make_shared<const ColourImage>(colour_of(picture));
 } catch (const Error&) {
     return nullptr;
 }

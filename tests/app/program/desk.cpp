@@ -16,6 +16,7 @@
 #include <memory>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 #include "tests/support/catch.hpp"
 #include "tests/support/eventually.hpp"
@@ -275,6 +276,17 @@ std::vector<double> held_moments(const std::vector<Row>& rows) {
         }
     }
     return held;
+}
+
+void act_in_one_picture(const Desk& desk, const WindowProgram& viewer, const std::string& events,
+                        int times) {
+    viewer.wait_for_turn();
+    viewer.hang();
+    for (int k = 0; k < times; ++k) {
+        if (k > 0) std::this_thread::sleep_for(std::chrono::milliseconds(40));
+        desk.press(events);
+    }
+    viewer.go_on();
 }
 
 void run_shell(const std::string& command) {

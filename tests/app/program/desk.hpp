@@ -151,6 +151,11 @@ struct Row {
 /// Moments of the video that were held for longer than a quarter of a second, one after the other.
 [[nodiscard]] std::vector<double> held_moments(const std::vector<Row>& rows);
 
+/// The events happen while the window's thread stands still, as in one slow picture; `times` of
+/// them as far apart as a person's: GLFW takes a key that goes down within 20 ms for one held down.
+void act_in_one_picture(const Desk& desk, const WindowProgram& viewer, const std::string& events,
+                        int times = 1);
+
 /// Runs a command line in a shell; fails the test when it fails.
 void run_shell(const std::string& command);
 

@@ -1,9 +1,7 @@
 // Clicks and key presses that come while the window draws nothing: none is lost. The toolbar, and
 // keys that an open list takes.
 #include <algorithm>
-#include <chrono>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "tests/app/program/command_program.hpp"
@@ -24,19 +22,6 @@ WindowProgram view_slope(const Desk& desk, const TemporaryFolder& folder,
                                        "mouse",           "--size",      "640x480"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     return desk.start_viewer(folder, arguments);
-}
-
-/// The events happen while the window's thread stands still, as in one slow picture; `times` of
-/// them as far apart as a person's: GLFW takes a key that goes down within 20 ms for one held down.
-void act_in_one_picture(const Desk& desk, const WindowProgram& viewer, const std::string& events,
-                        int times = 1) {
-    viewer.wait_for_turn();
-    viewer.hang();
-    for (int k = 0; k < times; ++k) {
-        if (k > 0) std::this_thread::sleep_for(std::chrono::milliseconds(40));
-        desk.press(events);
-    }
-    viewer.go_on();
 }
 
 // The places of buttons in the window as it starts, 1280 x 800.

@@ -35,6 +35,15 @@ WindowProgram view_sample(const Desk& desk, const TemporaryFolder& folder,
     return desk.start_viewer(folder, arguments, host);
 }
 
+void check_nobody_is_led(const Desk& desk, const TemporaryFolder& folder, WindowProgram viewer) {
+    viewer.wait_for_surface();
+    viewer.wait_for_turn();
+    CHECK(viewer.seen().lead == 0);
+    desk.press("key ctrl+shift+q key q");
+    REQUIRE(viewer.wait() == 0);
+    CHECK_FALSE(fs::exists(led(folder)));
+}
+
 /// Where the nose and the jumper of the sample's first frame are in the window.
 constexpr const char* kNose = "mousemove 484 356";
 constexpr const char* kJumper = "mousemove 340 604";
@@ -113,39 +122,22 @@ TEST_CASE("nobody is led where something else was asked for than to touch with t
     const Options with =
         GENERATE(Options{"--seconds", "600"}, Options{"--kiosk"}, Options{"--full-screen"},
                  Options{"--screenshot", "last.png"}, Options{"--record", "a.dibhr"});
-    WindowProgram viewer = view_sample(desk, folder, with);
-    viewer.wait_for_surface();
-    viewer.wait_for_turn();
-    CHECK(viewer.seen().lead == 0);
-    desk.press("key ctrl+shift+q key q");
-    REQUIRE(viewer.wait() == 0);
-    CHECK_FALSE(fs::exists(led(folder)));
+    check_nobody_is_led(desk, folder, view_sample(desk, folder, with));
 }
 
 TEST_CASE("nobody is led where the mouse is not the hand", "[lead]") {
     const Desk desk;
     const TemporaryFolder folder;
     write_text(folder / "goals.csv", "t,x,y,z\n0,320,240,150\n");
-    WindowProgram viewer = view_sample(desk, folder, {}, {}, "goals:goals.csv");
-    viewer.wait_for_surface();
-    viewer.wait_for_turn();
-    CHECK(viewer.seen().lead == 0);
-    desk.press("key q");
-    REQUIRE(viewer.wait() == 0);
-    CHECK_FALSE(fs::exists(led(folder)));
+    check_nobody_is_led(desk, folder, view_sample(desk, folder, {}, {}, "goals:goals.csv"));
 }
 
 TEST_CASE("nobody is led over another recording", "[lead]") {
     const Desk desk;
     const TemporaryFolder folder;
     write_depth_png(folder / "cup_depth.png", 60, 40, 120);
-    auto host = first_start(folder);
-    WindowProgram viewer =
-        desk.start_viewer(folder, {"cup_depth.png", "--device", "mouse", "--no-sync"}, host);
-    viewer.wait_for_surface();
-    viewer.wait_for_turn();
-    CHECK(viewer.seen().lead == 0);
-    desk.press("key q");
-    REQUIRE(viewer.wait() == 0);
-    CHECK_FALSE(fs::exists(led(folder)));
+    check_nobody_is_led(
+        desk, folder,
+        desk.start_viewer(folder, {"cup_depth.png", "--device", "mouse", "--no-sync"},
+                          first_start(folder)));
 }

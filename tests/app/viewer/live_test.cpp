@@ -16,7 +16,6 @@
 #include <memory>
 #include <numbers>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -54,8 +53,6 @@ PictureSender::Asked camera() {
     return asked;
 }
 
-/// GLFW takes a key that goes down within 20 ms for one that is held down.
-constexpr std::chrono::milliseconds kBetweenPresses{40};
 constexpr std::uint64_t kInAndOut = 1400;  // ticks, in which the goals come into the surface
 /// In and out of the surface, and over it.
 void write_goals(const fs::path& file) {
@@ -272,12 +269,8 @@ TEST_CASE("a recording asked for while the last one is finished is taken back by
     viewer.wait_for_surface();
     viewer.act("mousemove 150 240 mousedown 1 key ctrl+r");
     wait_for_rows(viewer, 100);
-    viewer.hang();
-    for (int k = 0; k < 3; ++k) {  // ends it, asks for another one, takes it back
-        if (k > 0) std::this_thread::sleep_for(kBetweenPresses);
-        desk.press("key ctrl+r");
-    }
-    viewer.go_on();
+    // Ends it, asks for another one, takes it back.
+    act_in_one_picture(desk, viewer, "key ctrl+r", 3);
     viewer.wait_until([](const Seen& now) { return contains(now.notice.str(), "Recorded "); });
     for (int k = 0; k < 10; ++k) viewer.wait_for_turn();
     CHECK_FALSE(viewer.seen().records);
