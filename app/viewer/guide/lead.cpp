@@ -140,6 +140,7 @@ void ViewerLead::begin_step(LeadStep step, ViewerState& state) {
     state.ui.show_touch = step == LeadStep::choose;
     since_s_ = time_s_;
     done_s_.reset();
+    stroked_to_.reset();
     picture_.reset();
 }
 
@@ -149,12 +150,14 @@ void ViewerLead::follow(const DepthBlend& shown, double now_s, ViewerState& stat
     if (is_busy(state.ui)) return end(state);
     if (!shown.makes_surface()) return;
     // A window that stands still takes no time away.
-    time_s_ += std::min(now_s - std::exchange(turn_s_, now_s), kLongestTurn_s);
+    const double turn_s = std::min(now_s - std::exchange(turn_s_, now_s), kLongestTurn_s);
+    time_s_ += turn_s;
     if (!state.ui.lead) {
         keep_led();
         begin_step(LeadStep::press, state);
     }
     if (!done_s_ && is_done(shown, state)) done_s_ = time_s_;
+    if (!done_s_ && stroked_to_) since_s_ += turn_s;  // a stroke may take longer
     if (time_s_ > done_s_.value_or(since_s_ + kStep_s) + (done_s_ ? kDone_s : 0.0)) {
         const LeadStep last = state.ui.lead->step;
         const bool hidden = last == LeadStep::stroke && !state.settings.panels_visible;

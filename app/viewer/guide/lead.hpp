@@ -12,7 +12,8 @@
 
 namespace dibhr {
 
-/// Shows the steps and takes no input: each step ends when the person has done it, or after 6.5 s.
+/// Shows the steps and takes no input: each step ends when the person has done it, or after 6.5 s
+/// in which the jumper is not stroked.
 class ViewerLead {
   public:
     /// The sample is shown: leads, unless somebody was led before, or the regions lack the nose or
