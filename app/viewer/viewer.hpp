@@ -179,7 +179,14 @@ class Viewer {
     [[nodiscard]] bool keys_are_text() const;
     [[nodiscard]] bool text_opens() const;
     [[nodiscard]] HandKeys hand_keys() const;
+    /// What has the keyboard when a picture's keys are taken.
+    struct KeyboardUse {
+        bool typing{false}, in_list{false};
+    };
     void take_keys(const WindowInput& input);
+    void take_key(const KeyPress& press, KeyboardUse before);
+    void take_character(const TypedCharacter& typed, KeyboardUse before);
+    void perform_key(Action action, EventTimes::Time at, KeyboardUse before);
     void take_kiosk_keys(const WindowInput& input);
     void follow_kiosk(const WindowInput& input);
     void show_in_kiosk(std::size_t number);

@@ -35,42 +35,54 @@ HandKeys Viewer::hand_keys() const {
 void Viewer::take_keys(const WindowInput& input) {
     if (options_.kiosk) return take_kiosk_keys(input);
     if (!input.keys.empty()) lead_.end(state_);
-    const bool in_list = gui_.list_is_open();
-    const bool typing = keys_are_text();
+    const KeyboardUse before{.typing = keys_are_text(), .in_list = gui_.list_is_open()};
     const std::vector<int> held = state_.keys.held_keys(Action::show_as_recorded);
-    const bool as_recorded = !typing && std::any_of(held.begin(), held.end(),
-                                                    [this](int key) { return window_.holds(key); });
+    const bool as_recorded =
+        !before.typing &&
+        std::any_of(held.begin(), held.end(), [this](int key) { return window_.holds(key); });
     if (as_recorded && !state_.media.as_recorded && !state_.touch.replay)
         show_notice("Depth as recorded");
     state_.media.as_recorded = as_recorded;
-    const auto take = [this, in_list](Action action, EventTimes::Time at) {
-        if (action == Action::close_topmost)
-            close_topmost(in_list);
-        else if (action == Action::mark && !state_.touch.replay)
-            state_.commands.push(MarkMoment{at});
-        else
-            perform(action);
+    auto typed = input.characters.begin();
+    const auto take_characters_until = [&](std::size_t keys) {
+        for (; typed != input.characters.end() && typed->keys <= keys; ++typed)
+            take_character(*typed, before);
     };
-    for (const KeyPress& press : input.keys) {
-        if (takes_keys(state_.ui.dialog) && state_.ui.message.empty() && take_dialog_key(press))
-            continue;
-        if (gui_.focus().take(press, gui_.wants_keyboard())) continue;
-        if (!typing && key_hand_.take(press, relief_viewport(), camera_)) continue;
-        const std::optional<int> digit = digit_of(press.key);
-        if (digit && !press.repeated && asks_depth(state_.ui)) take_digit(*digit, state_);
-        if (const auto action = state_.keys.action_of_key(press.key, press.control, typing,
-                                                          press.repeated, press.shift))
-            take(*action, press.at);
+    take_characters_until(0);
+    for (std::size_t k = 0; k < input.keys.size(); ++k) {
+        take_key(input.keys[k], before);
+        take_characters_until(k + 1);
     }
-    if (typing || text_opens()) return;
-    gui_.drop_characters();  // they were keys: no field that opens later may read them
-    const bool space_is_taken = gui_.focus().on() || key_hand_.on();
-    for (const TypedCharacter& typed : input.characters) {
-        if (typed.code == ' ' && space_is_taken) continue;
-        if (const auto action =
-                state_.keys.action_of_character(typed.code, typed.repeated, typed.shift))
-            take(*action, typed.at);
-    }
+    // What was no text were keys: no field that opens later may read them.
+    if (!before.typing && !text_opens()) gui_.drop_characters();
+}
+
+void Viewer::take_key(const KeyPress& press, KeyboardUse before) {
+    if (takes_keys(state_.ui.dialog) && state_.ui.message.empty() && take_dialog_key(press)) return;
+    if (gui_.focus().take(press, gui_.wants_keyboard())) return;
+    if (!before.typing && key_hand_.take(press, relief_viewport(), camera_)) return;
+    const std::optional<int> digit = digit_of(press.key);
+    if (digit && !press.repeated && asks_depth(state_.ui)) take_digit(*digit, state_);
+    if (const auto action = state_.keys.action_of_key(press.key, press.control, before.typing,
+                                                      press.repeated, press.shift))
+        perform_key(*action, press.at, before);
+}
+
+void Viewer::take_character(const TypedCharacter& typed, KeyboardUse before) {
+    if (before.typing || text_opens()) return;
+    if (typed.code == ' ' && (gui_.focus().on() || key_hand_.on())) return;
+    if (const auto action =
+            state_.keys.action_of_character(typed.code, typed.repeated, typed.shift))
+        perform_key(*action, typed.at, before);
+}
+
+void Viewer::perform_key(Action action, EventTimes::Time at, KeyboardUse before) {
+    if (action == Action::close_topmost)
+        close_topmost(before.in_list);
+    else if (action == Action::mark && !state_.touch.replay)
+        state_.commands.push(MarkMoment{at});
+    else
+        perform(action);
 }
 
 /// While its line has the keyboard, also before it is drawn. True: no other part takes the key.

@@ -165,7 +165,8 @@ void Window::collect_events() {
         note_event(window);
         // GLFW reports a character after the key that typed it.
         const KeyPress& by = pending_of(window).key;
-        input_of(window).characters.push_back({character, by.repeated, by.shift, by.at});
+        WindowInput& input = input_of(window);
+        input.characters.push_back({character, by.repeated, by.shift, by.at, input.keys.size()});
     });
     glfwGetCursorPos(window_, &pending_.pointer.position_px.x, &pending_.pointer.position_px.y);
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int mods) {

@@ -32,6 +32,7 @@ struct TypedCharacter {
     bool repeated{false};
     bool shift{false};
     EventTimes::Time at{};  ///< when its key went down
+    std::size_t keys{0};    ///< that were pressed until then, its own among them
 };
 
 /// The pointer at a moment; position in pixels of the framebuffer from the upper left.

@@ -77,6 +77,21 @@ TEST_CASE("every click of the ruler counts, and every press of a key", "[clicks]
     CHECK(std::ranges::count_if(names_in(folder.path()), is_session) == 2);
 }
 
+TEST_CASE("keys and characters within one picture act in their order", "[clicks]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    WindowProgram viewer = desk.start_viewer(folder, {"--device", "mouse"});
+    viewer.wait_for_surface();
+    viewer.act("mousemove 300 400");
+    viewer.wait_until([](const Seen& now) { return now.playing && now.media_s > 0.0; });
+    act_in_one_picture(desk, viewer, "key space key Home", 1);
+    viewer.wait_until([](const Seen& now) { return !now.playing; });
+    viewer.wait_for_turn();
+    CHECK(viewer.seen().media_s == 0.0);
+    desk.press("key q");
+    CHECK(viewer.wait() == 0);
+}
+
 TEST_CASE("an open list takes the keys, and Esc closes it", "[clicks]") {
     const Desk desk;
     const TemporaryFolder folder;
