@@ -50,8 +50,8 @@ float ear(Vec3 side) noexcept {
 float falling_hair(Vec3 side) noexcept {
     const float down = std::clamp((10.0F - side.y) / 196.0F, 0.0F, 1.0F);
     const float out =
-        54.0F + 25.0F * smooth_step(0.0F, 0.55F, down) - 14.0F * smooth_step(0.6F, 1.0F, down);
-    const Vec2 middle{out - hair_sway(side.y), -42.0F + 90.0F * down * (0.45F + 0.55F * down)};
+        50.0F + 29.0F * smooth_step(0.25F, 0.8F, down) - 14.0F * smooth_step(0.6F, 1.0F, down);
+    const Vec2 middle{out - hair_sway(side.y), -22.0F + 70.0F * down * (0.45F + 0.55F * down)};
     const float taper = (0.75F + 0.25F * smooth_step(0.0F, 0.25F, down)) *
                         (1.0F - 0.85F * smooth_step(0.45F, 1.05F, down));
     const float radius = (34.0F - 3.0F * down) * taper;
@@ -175,7 +175,7 @@ float hair_distance(Vec3 head) noexcept {
     if (std::min(cap, fall) > 24.0F) return std::min(cap, fall) - 10.0F;
 
     const HairFlow flow = hair_flow(head);
-    const float ear_room = ellipsoid(side - Vec3{84.0F, -8.0F, 16.0F}, {24.0F, 27.0F, 26.0F});
+    const float ear_room = ellipsoid(side - Vec3{91.0F, -4.0F, 16.0F}, {24.0F, 24.0F, 26.0F});
     float d = smooth_max(cap, -flow.edge, 16.0F);
     d = smooth_min(d, fall, 14.0F);
     d = smooth_max(d, -ear_room, 14.0F);
@@ -183,7 +183,9 @@ float hair_distance(Vec3 head) noexcept {
     const float lock = noise(flow.across * 0.085F, head.y * 0.006F + 3.0F) - 0.5F;
     const float strand = noise(flow.across * 0.28F + 4.0F * lock, head.y * 0.012F) - 0.5F;
     const float groove = 2.5F * hill(flow.parting, 4.0F) * smooth_step(20.0F, 60.0F, head.y);
-    return d - (5.0F * lock + 1.4F * strand) * whole + groove;
+    // Locks that stood out at the outline would be a second outline beside it.
+    const float seen = smooth_step(0.0F, 60.0F, head.z) + smooth_step(-20.0F, -60.0F, head.y);
+    return d - (5.0F * lock + 1.4F * strand) * whole * std::min(seen, 1.0F) + groove;
 }
 
 }  // namespace dibhr::sample
