@@ -136,6 +136,12 @@ void main() {
                      vec2(face.to_low.x, face.to_high.x), across);
     float dy = slope(smooth_elevation(ivec2(at.x, face.low.y)), middle, smooth_elevation(ivec2(at.x, face.high.y)),
                      vec2(face.to_low.y, face.to_high.y), along);
+#ifdef LAYER
+    // What is continued soon loses the light of the vertex at the outline that it began with, or streaks would show.
+    float kept = 1.0 - smoothstep(0.0, 0.1, fill.a);
+    dx *= kept;
+    dy *= kept;
+#endif
     Reach bumps = reach_of(vertex);
     vec2 wide = bumps.to_low + bumps.to_high;
     dx += (raised(ivec2(bumps.high.x, vertex.y)) - raised(ivec2(bumps.low.x, vertex.y))) / wide.x;
