@@ -17,6 +17,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/video/cleaning/sparse_meter.hpp"
 #include "core/video/depth/depth_guess.hpp"
+#include "core/video/depth/texture_slope.hpp"
 #include "core/video/sources/coded_levels.hpp"
 #include "core/video/sources/depth_finding.hpp"
 #include "core/video/sources/kept_choices.hpp"
@@ -53,25 +54,33 @@ auto opened(const DepthRequest& request, const Open& open) {
     }
 }
 
+/// The middle of a sample picture, as large as measuring needs it.
+DepthImage middle_of(const cv::Mat& picture, const DepthScale& scale) {
+    constexpr int kMeasuredSide_px = 2048;
+    const cv::Size size(std::min(picture.cols, kMeasuredSide_px),
+                        std::min(picture.rows, kMeasuredSide_px));
+    const cv::Point corner((picture.cols - size.width) / 2, (picture.rows - size.height) / 2);
+    return scale.image_of(picture(cv::Rect(corner, size)));
+}
+
 /// The share of the pixels with data where they are sparse, by the first picture; where that has
 /// hardly any data, by some from all over the source.
 std::optional<double> sparse_share_of(PictureSource& depth, const DepthScale& scale) {
-    constexpr int kMeasuredSide_px = 2048;  // the middle of a larger picture is enough
     const int side_px = std::min(depth.facts().columns, depth.facts().rows);
     if (scale.is_always_data() || !scale.meaning() || side_px < SparseMeter::kLeastSide_px)
         return std::nullopt;
     SparseMeter meter;
     for (const int count : {1, 8}) {
         if (meter.has_measured()) break;
-        for (const cv::Mat& picture : depth.samples(count)) {
-            const cv::Size size(std::min(picture.cols, kMeasuredSide_px),
-                                std::min(picture.rows, kMeasuredSide_px));
-            const cv::Point corner((picture.cols - size.width) / 2,
-                                   (picture.rows - size.height) / 2);
-            meter.add(scale.image_of(picture(cv::Rect(corner, size))));
-        }
+        for (const cv::Mat& picture : depth.samples(count)) meter.add(middle_of(picture, scale));
     }
     return meter.sparse_share();
+}
+
+std::optional<double> texture_slope_of(PictureSource& depth, const DepthScale& scale) {
+    if (!depth.facts().still || !scale.meaning()) return std::nullopt;
+    const std::vector<cv::Mat> pictures = depth.samples(1);
+    return pictures.empty() ? std::nullopt : texture_slope(middle_of(pictures.front(), scale));
 }
 
 std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthStatement& statement,
@@ -83,6 +92,7 @@ std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthStatement& sta
     const DepthRequest request = with_kept_choice(asked, sources.depth->facts().file);
     FoundScale found = find_scale(sources, request);
     const std::optional<double> sparse_share = sparse_share_of(*sources.depth, found.scale);
+    const std::optional<double> slope = texture_slope_of(*sources.depth, found.scale);
     const bool painted = seen && request.paints && sources.colour == nullptr;
     const PairTimes times =
         pair_times(sources, found.scale.meaning().value_or(DepthMeaning{}), request.find_out);
@@ -93,6 +103,7 @@ std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthStatement& sta
     media->set_conclusion(std::move(found.conclusion));
     media->add_notice(sources.notice);
     if (sparse_share) media->set_sparse(*sparse_share);
+    media->set_texture_slope(slope);
     media->add_notice(notice);
     media->set_panel_statement(request.panel);
     media->set_prepared_in(request.prepared_in);
@@ -253,7 +264,12 @@ std::string motion_trouble(const MediaDescription& media) {
 Fit fit_of(const MediaDescription& media) {
     if (media.true_fit) return *media.true_fit;
     const double columns = std::max(media.depth_columns, 2);
-    return {kPaperRelief * columns, kPaperWidth_mm / columns};
+    constexpr double kSteepAllOver = 1.0;
+    constexpr double kSlopeOfTexture = 0.5;
+    double relief_px = kPaperRelief * columns;
+    const double slope = media.texture_slope.value_or(0.0) * relief_px;
+    if (slope > kSteepAllOver) relief_px *= kSlopeOfTexture / slope;
+    return {relief_px, kPaperWidth_mm / columns};
 }
 
 CleaningOptions cleaning_on(const MediaDescription& media, CleaningOptions asked) {

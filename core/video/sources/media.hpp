@@ -84,7 +84,8 @@ struct DepthRequest {
     bool paints{true};  ///< depth alone is shown in colours of its own
 };
 
-/// The relief and the pitch that fit a media.
+/// The relief and the pitch that fit a media. A still that is steep all over, as a bump map is, has
+/// less relief than a scene, so that half of its slopes are below 0.5.
 struct Fit {
     double relief_px;  ///< of the highest level
     double pixel_pitch_mm;
@@ -103,6 +104,8 @@ struct MediaDescription {
     double holes_share{0.0};  ///< share of their pixels without data, in [0, 1] (`dibhr info`)
     /// The share of the pixels with data where the depth is sparse; nothing: it is not.
     std::optional<double> sparse_share{};
+    /// Of a still (depth/texture_slope.hpp); nothing: not known.
+    std::optional<double> texture_slope{};
     std::optional<DepthNoise> noise{};      ///< used for cleaning when it was recorded live
     std::optional<Fit> true_fit{};          ///< of a true shape, whose pixels are millimetres
     std::optional<DepthMeaning> meaning{};  ///< nothing: levels as in the file

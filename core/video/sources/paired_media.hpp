@@ -80,6 +80,7 @@ class PairedMedia : public Media {
     void add_notice(const std::string& sentence);
     /// Stored in the description; the notice says what becomes of the pixels that are not seen.
     void set_sparse(double seen_share);
+    void set_texture_slope(std::optional<double> slope) { description_.texture_slope = slope; }
     void set_live_feed(std::shared_ptr<LiveFeed> live) { live_ = std::move(live); }
     /// Both are stored in the description.
     void set_conclusion(DepthConclusion conclusion) {

@@ -14,6 +14,9 @@
 #include <utility>
 #include <vector>
 
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
 #include "tests/core/video/clips.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -294,6 +297,33 @@ TEST_CASE("a media file describes itself without its partner", "[media]") {
     CHECK(clip.colour_rows == 48);
     CHECK(clip.frames_exact);
     CHECK(clip.depth_path.empty());
+}
+
+TEST_CASE("a still that is steep all over fits less relief than a scene, however noisy that is",
+          "[media]") {
+    constexpr int kColumns = 320, kRows = 240;
+    constexpr double kPaper_px = 255.0 / 720.0 * kColumns;
+    const TemporaryFolder folder;
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> noise(-10.0, 10.0);
+    cv::Mat1b bumps(kRows, kColumns), scene(kRows, kColumns), noisy(kRows, kColumns);
+    for (int j = 0; j < kRows; ++j)
+        for (int i = 0; i < kColumns; ++i) {
+            const double far = std::hypot(i - 150.0, j - 120.0);
+            const double hill = far < 80.0 ? 200.0 - 0.5 * far : 40.0;
+            bumps(j, i) = cv::saturate_cast<std::uint8_t>(128.0 + 100.0 * std::sin(0.3 * i) *
+                                                                      std::cos(0.27 * j));
+            scene(j, i) = cv::saturate_cast<std::uint8_t>(hill);
+            noisy(j, i) = cv::saturate_cast<std::uint8_t>(hill + noise(random));
+        }
+    const auto relief_px = [&folder](const std::string& name, const cv::Mat1b& picture) {
+        REQUIRE(cv::imwrite((folder / name).string(), picture));
+        return fit_of(open_depth(folder / name, {.find_out = true})->description()).relief_px;
+    };
+    CHECK(relief_px("bumps_height.png", bumps) < 0.25 * kPaper_px);
+    CHECK(relief_px("bumps_height.png", bumps) > 0.02 * kPaper_px);
+    CHECK_THAT(relief_px("scene_height.png", scene), WithinAbs(kPaper_px, 1e-9));
+    CHECK_THAT(relief_px("noisy_height.png", noisy), WithinAbs(kPaper_px, 1e-9));
 }
 
 TEST_CASE("what lets motion be seen badly is told in a sentence, and nothing where all is well",
