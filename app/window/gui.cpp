@@ -157,6 +157,7 @@ ImFont* load_font(int weight, float height_px) {
     if (!file || ::access(file->name.c_str(), R_OK) != 0) return nullptr;
     ImFontConfig config;
     config.FontNo = file->number & 0xFFFF;
+    config.OversampleH = 2;  // with ImGui 1.86's 3 the texture takes 17 MB, and nobody sees it
     return ImGui::GetIO().Fonts->AddFontFromFileTTF(file->name.c_str(), height_px, &config,
                                                     kLetters);
 }
