@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -39,22 +40,9 @@ struct Plane {
     [[nodiscard]] double depth(Vec3 g) const { return glm::length(g - foot(g)); }
 };
 
-}  // namespace
-
-TEST_CASE(
-    "on a plane, flat or tilted, the proxy follows the exact orbit to 1e-9 px in every update",
-    "[plane]") {
-    const auto slopes = GENERATE(std::array{0.0, 0.0}, std::array{0.3, -0.2},
-                                 std::array{-0.11, 0.45}, std::array{0.4, 0.3});
-    const double mu = GENERATE(0.0, 0.1, 0.4, 1.0);
-    const double depth = GENERATE(0.5, 5.0, 20.0, 60.0);
-    CAPTURE(slopes[0], slopes[1], mu, depth);
-    const Plane plane{slopes[0], slopes[1], 200.0};
-    // Levels are hundredths of a pixel.
-    const DepthImage image =
-        test::tilted(720, 486, 100.0 * plane.slope_x, 100.0 * plane.slope_y, 20000.0);
-    const DepthSurface surface(image, image, 0.0, {655.35, 0.0});
-
+/// The farthest of the proxy from its exact place [px].
+double farthest_from_orbit(const Plane& plane, const DepthSurface& surface, double mu,
+                           double depth) {
     Dibhr dibhr;
     Vec3 exact(0.0);
     double worst = 0.0;
@@ -71,12 +59,31 @@ TEST_CASE(
         goal.z = plane.slope_x * goal.x + plane.slope_y * goal.y + plane.height -
                  depth / glm::normalize(Vec3(-plane.slope_x, -plane.slope_y, 1.0)).z;
         const Proxy& proxy = dibhr.update(surface, goal, {mu, mu});
-        REQUIRE(proxy.contact);
+        if (!proxy.contact) return std::numeric_limits<double>::infinity();
         exact =
             k == 0 ? proxy.position : exact_step(exact, plane.foot(goal), mu * plane.depth(goal));
         worst = std::max(worst, glm::length(proxy.position - exact));
     }
-    CHECK(worst <= 1e-9);
+    return worst;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "on a plane, flat or tilted, the proxy follows the exact orbit to 1e-9 px in every update",
+    "[plane]") {
+    const auto slopes = GENERATE(std::array{0.0, 0.0}, std::array{0.3, -0.2},
+                                 std::array{-0.11, 0.45}, std::array{0.4, 0.3});
+    const Plane plane{slopes[0], slopes[1], 200.0};
+    // Levels are hundredths of a pixel.
+    const DepthImage image =
+        test::tilted(720, 486, 100.0 * plane.slope_x, 100.0 * plane.slope_y, 20000.0);
+    const DepthSurface surface(image, image, 0.0, {655.35, 0.0});
+    for (const double mu : {0.0, 0.1, 0.4, 1.0})
+        for (const double depth : {0.5, 5.0, 20.0, 60.0}) {
+            CAPTURE(slopes[0], slopes[1], mu, depth);
+            CHECK(farthest_from_orbit(plane, surface, mu, depth) <= 1e-9);
+        }
 }
 
 TEST_CASE("on the paper's circle the force turns by 0.528 degrees at mu 0.4, whatever the depth",
