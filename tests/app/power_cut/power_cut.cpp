@@ -15,6 +15,7 @@
 #include <set>
 #include <sstream>
 
+#include "core/files/module.hpp"
 #include "tests/app/power_cut/cut_disk.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/text.hpp"
@@ -64,6 +65,9 @@ void empty(const fs::path& folder) {
 PowerCut::PowerCut(Work work, Work prepare) : work_(std::move(work)), prepare_(std::move(prepare)) {
     fs::create_directory(folder_ / "kept");
     fs::create_directory(disk());
+    // Else each process that writes a picture or a video would load them again.
+    static_cast<void>(symbol_in_module("dibhr_libav", "avformat_version"));
+    static_cast<void>(symbol_in_module("dibhr_picture_codecs", "dibhr_picture_codecs"));
 }
 
 PowerCut::Work PowerCut::program(std::vector<std::string> arguments) {
