@@ -65,7 +65,7 @@ std::vector<Frame> truth(const MovingScene& scene, double seconds) {
     const int count = static_cast<int>(std::ceil(seconds * kFrames_per_s)) + 2;
     std::vector<Frame> frames;
     for (int k = 0; k < count; ++k) {
-        frames.push_back(scene.frame(k / kFrames_per_s));
+        frames.push_back(scene.uncoloured(k / kFrames_per_s));
         frames.back().motion = scene.motion(k / kFrames_per_s, (k + 1) / kFrames_per_s);
     }
     return frames;

@@ -9,8 +9,9 @@
 #include <numbers>
 #include <random>
 #include <stdexcept>
+#include <utility>
 
-#include "tests/core/video/clips.hpp"
+#include "tests/support/ffmpeg.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace dibhr::test {
@@ -33,14 +34,27 @@ double hash_of(int x, int y, int seed) {
 
 /// Random values a pixel apart, smooth between them.
 double waves(double x, double y, int seed) {
-    const int i = static_cast<int>(std::floor(x));
-    const int j = static_cast<int>(std::floor(y));
+    const auto whole = [](double of) {  // floor(), without a call
+        const int cut = static_cast<int>(of);
+        return cut > of ? cut - 1 : cut;
+    };
+    const int i = whole(x);
+    const int j = whole(y);
     const auto smooth = [](double t) { return t * t * (3.0 - 2.0 * t); };
+    const auto between = [](double from, double to, double t) { return from + t * (to - from); };
     const double a = smooth(x - i);
     const double b = smooth(y - j);
-    return std::lerp(std::lerp(hash_of(i, j, seed), hash_of(i + 1, j, seed), a),
-                     std::lerp(hash_of(i, j + 1, seed), hash_of(i + 1, j + 1, seed), a), b);
+    return between(between(hash_of(i, j, seed), hash_of(i + 1, j, seed), a),
+                   between(hash_of(i, j + 1, seed), hash_of(i + 1, j + 1, seed), a), b);
 }
+
+double squared(double x, double y) {
+    return x * x + y * y;
+}
+
+/// A pixel's brightness is the mean of that at these places around its middle.
+constexpr std::array<MovingScene::Point, 4> kPlaces{
+    {{-0.25, -0.25}, {-0.25, 0.25}, {0.25, -0.25}, {0.25, 0.25}}};
 
 struct Bar {
     double x0, y0, x1, y1, radius;
@@ -58,8 +72,9 @@ double hand_height(MovingScene::Point at) {
         const double y = bar.y1 - bar.y0;
         const double along = ((at.x - bar.x0) * x + (at.y - bar.y0) * y) / (x * x + y * y);
         const double on = std::clamp(along, 0.0, 1.0);
-        const double away = std::hypot(at.x - bar.x0 - on * x, at.y - bar.y0 - on * y) / bar.radius;
-        if (away < 1.0) height = std::max(height, 41.0 + 0.9 * bar.radius * (1.0 - away * away));
+        const double away =
+            squared(at.x - bar.x0 - on * x, at.y - bar.y0 - on * y) / (bar.radius * bar.radius);
+        if (away < 1.0) height = std::max(height, 41.0 + 0.9 * bar.radius * (1.0 - away));
     }
     return height;
 }
@@ -69,6 +84,15 @@ double hand_height(MovingScene::Point at) {
 double texture(double x, double y, int seed) {
     return 50.0 * waves(x / 3.1, y / 3.1, seed) + 60.0 * waves(x / 9.3, y / 9.3, seed + 1) +
            70.0 * waves(x / 31.0, y / 31.0, seed + 2);
+}
+
+MovingScene::MovingScene(const What& what) : what_(what) {
+    if (what_.shape == Shape::plane) return;  // which hides the wall
+    wall_.reserve(kPlaces.size() * static_cast<std::size_t>(what_.columns * what_.rows));
+    for (int j = 0; j < what_.rows; ++j)
+        for (int i = 0; i < what_.columns; ++i)
+            for (const Point place : kPlaces)
+                wall_.push_back(110.0 + texture(i + place.x, j + place.y, 31));
 }
 
 double MovingScene::size_px() const {
@@ -112,10 +136,10 @@ MovingScene::Seen MovingScene::at(double t_s, Point place) const {
 MovingScene::Seen MovingScene::at(Point on, Point place) const {
     if (what_.shape == Shape::plane) return {100.0 + 0.1 * on.x + 0.05 * on.y, 1};
     if (what_.shape == Shape::sphere) {
-        const double left = size_px() * size_px() - on.x * on.x - on.y * on.y;
+        const double left = size_px() * size_px() - squared(on.x, on.y);
         if (left > 0.0) return {80.0 + std::sqrt(left), 1};
     }
-    if (what_.shape == Shape::disc && std::hypot(on.x, on.y) < size_px())
+    if (what_.shape == Shape::disc && squared(on.x, on.y) < size_px() * size_px())
         return {kWall_px + kDisc_px, 1};
     if (what_.shape == Shape::hand) {
         const double scale = what_.columns / 640.0;
@@ -125,12 +149,21 @@ MovingScene::Seen MovingScene::at(Point on, Point place) const {
     return {kWall_px + 0.02 * place.x, 0};
 }
 
-double MovingScene::brightness(double t_s, Point place) const {
-    const Point on = on_thing(t_s, place);
-    if (at(on, place).object == 0) return 110.0 + texture(place.x, place.y, 31);
+double MovingScene::brightness_on(Point on) const {
     if (what_.look == Look::textured) return 140.0 + 0.8 * texture(on.x, on.y, 3);
     const double shade = what_.look == Look::shaded ? (0.6 * on.x - 0.8 * on.y) / size_px() : 0.0;
     return 150.0 + 50.0 * shade;
+}
+
+double MovingScene::brightness(double t_s, int i, int j) const {
+    const auto pixel = static_cast<std::size_t>(j * what_.columns + i);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < kPlaces.size(); ++k) {
+        const Point place{i + kPlaces[k].x, j + kPlaces[k].y};
+        const Point on = on_thing(t_s, place);
+        sum += at(on, place).object == 0 ? wall_[kPlaces.size() * pixel + k] : brightness_on(on);
+    }
+    return sum / static_cast<double>(kPlaces.size());
 }
 
 MovingScene::Point MovingScene::gone(double t_s, Point place, double later_s) const {
@@ -158,20 +191,24 @@ Frame MovingScene::frame(double t_s, const CameraNoise& noise) const {
         1.0 + noise.exposure * std::sin(2.0 * std::numbers::pi * kSwings_hz * t_s);
     auto colour = std::make_shared<ColourImage>(ColourImage{what_.columns, what_.rows, {}});
     colour->rgb.reserve(3 * static_cast<std::size_t>(what_.columns * what_.rows));
-    const DepthImage depth = image_of(what_.columns, what_.rows, 255.0, [&](int i, int j) {
-        double bright = noise.brightness * normal(random);
-        for (const double x : {-0.25, 0.25})
-            for (const double y : {-0.25, 0.25})
-                bright += 0.25 * exposed * brightness(t_s, {i + x, j + y});
+    Frame frame = uncoloured(t_s, [&](int i, int j) {
+        const double bright = noise.brightness * normal(random) + exposed * brightness(t_s, i, j);
         const auto grey = static_cast<std::uint8_t>(std::clamp(std::lround(bright), 0L, 255L));
         colour->rgb.insert(colour->rgb.end(), {grey, grey, grey});
-        const double off_px = noise.elevation_px > 0.0 ? noise.elevation_px * normal(random) : 0.0;
-        return at(t_s, {static_cast<double>(i), static_cast<double>(j)}).elevation_px + off_px;
+        return noise.elevation_px > 0.0 ? noise.elevation_px * normal(random) : 0.0;
     });
-    Frame frame;
-    frame.depth = std::make_shared<const DepthImage>(depth);
     frame.colour = std::move(colour);
     frame.colour_of_view = true;
+    return frame;
+}
+
+Frame MovingScene::uncoloured(double t_s, const std::function<double(int i, int j)>& off_px) const {
+    Frame frame;
+    frame.depth = std::make_shared<const DepthImage>(
+        image_of(what_.columns, what_.rows, 255.0, [&](int i, int j) {
+            const double off = off_px ? off_px(i, j) : 0.0;
+            return at(t_s, {static_cast<double>(i), static_cast<double>(j)}).elevation_px + off;
+        }));
     frame.time_s = frame.media_s = t_s;
     return frame;
 }

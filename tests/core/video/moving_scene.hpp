@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -48,10 +49,9 @@ class MovingScene {
         int object;  ///< 0: the wall
     };
 
-    explicit MovingScene(const What& what) : what_(what) {}
+    explicit MovingScene(const What& what);
 
     [[nodiscard]] Seen at(double t_s, Point place) const;
-    [[nodiscard]] double brightness(double t_s, Point place) const;  ///< [0, 255]
     /// Where the point that is seen at `place` at `t_s` is at `later_s`.
     [[nodiscard]] Point gone(double t_s, Point place, double later_s) const;
 
@@ -61,6 +61,9 @@ class MovingScene {
     /// As a camera without lens has it: a pixel's brightness is the mean over it, its depth that of
     /// its middle.
     [[nodiscard]] Frame frame(double t_s, const CameraNoise& noise = {}) const;
+    /// Its depth alone; `off_px`: how far off a pixel's is.
+    [[nodiscard]] Frame uncoloured(double t_s,
+                                   const std::function<double(int i, int j)>& off_px = {}) const;
 
     [[nodiscard]] const What& what() const { return what_; }
     [[nodiscard]] double size_px() const;  ///< from its middle to its rim
@@ -71,8 +74,11 @@ class MovingScene {
     [[nodiscard]] Point on_thing(double t_s, Point place) const;
     [[nodiscard]] Point off_thing(double t_s, Point on) const;
     [[nodiscard]] Seen at(Point on, Point place) const;
+    [[nodiscard]] double brightness(double t_s, int i, int j) const;  ///< [0, 255]
+    [[nodiscard]] double brightness_on(Point on) const;
 
     What what_;
+    std::vector<double> wall_{};  ///< its brightness, which stays: four places of each pixel
 };
 
 /// Frames of a scene in a row, the first at 0 s, without or after a video codec's own loss: the
