@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "tests/support/ffmpeg.hpp"
+#include "tests/core/video/clips.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace dibhr::test {
