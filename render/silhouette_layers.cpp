@@ -94,7 +94,8 @@ class LayerMesher {
 
     [[nodiscard]] LayerVertex on_own_face(const Rim& rim) const {
         LayerVertex made = at_outline(rim, rims_.elevation_px(rim.at), rim.at);
-        if (rim.own_colour) made.fill = bytes(rim.own_colour);
+        made.fill =
+            bytes(rim.own_colour ? rim.own_colour : rim.colour);  // its own face is not under
         return made;
     }
 

@@ -12,6 +12,7 @@
 
 #include "app/settings/folder.hpp"
 #include "core/files/names.hpp"
+#include "core/video/depth/texture_slope.hpp"
 #include "core/video/live/live_name.hpp"
 
 namespace dibhr {
@@ -89,7 +90,10 @@ void ViewerAsking::draw_reliefs(const DepthBlend& shown, std::uint32_t media, Vi
     frame.colour = frame_->colour;
     frame.video = frame_->video;
     SceneContent content{.depth = {&frame, &frame, 0.0}, .colour = &frame};
-    content.shape.relief_px = fit_of({.depth_columns = frame.depth->columns}).relief_px;
+    const MediaDescription drawn{
+        .depth_columns = frame.depth->columns,
+        .texture_slope = state.media.still ? texture_slope(*frame.depth) : std::nullopt};
+    content.shape.relief_px = fit_of(drawn).relief_px;
     content.relief_style.light = 1.0;
     content.relief_style.paint = ReliefPaint::clay;
     content.light_wall = state.settings.theme == Theme::light;

@@ -179,7 +179,7 @@ class Viewer {
     [[nodiscard]] bool keys_are_text() const;
     [[nodiscard]] bool text_opens() const;
     [[nodiscard]] HandKeys hand_keys() const;
-    /// What has the keyboard when a picture's keys are taken.
+    /// What has the keyboard before the keys of a turn are taken.
     struct KeyboardUse {
         bool typing{false}, in_list{false};
     };

@@ -43,18 +43,15 @@ void Viewer::take_keys(const WindowInput& input) {
     if (as_recorded && !state_.media.as_recorded && !state_.touch.replay)
         show_notice("Depth as recorded");
     state_.media.as_recorded = as_recorded;
-    auto typed = input.characters.begin();
-    const auto take_characters_until = [&](std::size_t keys) {
-        for (; typed != input.characters.end() && typed->keys <= keys; ++typed)
-            take_character(*typed, before);
-    };
-    take_characters_until(0);
-    for (std::size_t k = 0; k < input.keys.size(); ++k) {
-        take_key(input.keys[k], before);
-        take_characters_until(k + 1);
-    }
-    // What was no text were keys: no field that opens later may read them.
-    if (!before.typing && !text_opens()) gui_.drop_characters();
+    std::size_t were_keys = 0;
+    each_in_order(
+        input, [&](const KeyPress& press) { take_key(press, before); },
+        [&](const TypedCharacter& typed) {
+            if (before.typing || text_opens()) return;
+            ++were_keys;
+            take_character(typed, before);
+        });
+    gui_.drop_characters(were_keys);
 }
 
 void Viewer::take_key(const KeyPress& press, KeyboardUse before) {
@@ -69,7 +66,6 @@ void Viewer::take_key(const KeyPress& press, KeyboardUse before) {
 }
 
 void Viewer::take_character(const TypedCharacter& typed, KeyboardUse before) {
-    if (before.typing || text_opens()) return;
     if (typed.code == ' ' && (gui_.focus().on() || key_hand_.on())) return;
     if (const auto action =
             state_.keys.action_of_character(typed.code, typed.repeated, typed.shift))

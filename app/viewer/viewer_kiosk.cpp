@@ -12,7 +12,7 @@ namespace dibhr {
 
 /// Of all keys only a few do something; Ctrl+Shift+Q alone leaves.
 void Viewer::take_kiosk_keys(const WindowInput& input) {
-    for (const KeyPress& press : input.keys) {
+    const auto take_key = [this](const KeyPress& press) {
         if (press.control && press.shift && press.key == 'Q') {
             kiosk_left_ = true;
             window_.close();
@@ -22,13 +22,14 @@ void Viewer::take_kiosk_keys(const WindowInput& input) {
         if (action == Action::force_off) perform(*action);
         if (list_key(press.key) == ListKey::take && !press.repeated)
             state_.commands.push(KioskCommand::next);
-    }
-    for (const TypedCharacter& typed : input.characters) {
+    };
+    const auto take_character = [this](const TypedCharacter& typed) {
         if (typed.code == ' ' && !typed.repeated) state_.commands.push(KioskCommand::say_again);
         if (state_.keys.action_of_character(typed.code, typed.repeated, typed.shift) ==
             Action::toggle_force)
             perform(Action::toggle_force);
-    }
+    };
+    each_in_order(input, take_key, take_character);
 }
 
 /// Without touch for long enough: the first recording from its begin, as it is first seen.

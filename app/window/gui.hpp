@@ -40,8 +40,9 @@ class Gui {
     /// Begins a picture; panels may be drawn until end(). `pressed`: keys since the last picture.
     /// `text_opens`: a text is about to be typed in, and gets the characters that came too early.
     void begin(std::span<const KeyPress> pressed, bool text_opens = false);
-    /// Drops the characters since the last picture, unless a field reads them.
-    void drop_characters();
+    /// Drops the first `count` characters since the last picture, which were key presses: no field
+    /// that opens later may read them. Not those that a field reads.
+    void drop_characters(std::size_t count);
     void end();
     void draw();  ///< draws the panels, as of the last end(), into the bound framebuffer
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <glm/vec2.hpp>
@@ -32,7 +33,8 @@ struct TypedCharacter {
     bool repeated{false};
     bool shift{false};
     EventTimes::Time at{};  ///< when its key went down
-    std::size_t keys{0};    ///< that were pressed until then, its own among them
+    /// How many of WindowInput::keys came before, the one that typed it among them.
+    std::size_t keys{0};
 };
 
 /// The pointer at a moment; position in pixels of the framebuffer from the upper left.
@@ -62,6 +64,19 @@ struct WindowInput {
     bool any{false};      ///< something happened, also what has no entry here: the pointer moved
     bool damaged{false};  ///< the screen has lost the window's picture, or part of it
 };
+
+/// Calls take_key(press) and take_character(typed) for all of an input, in the order in which they
+/// were pressed and typed.
+template <typename TakeKey, typename TakeCharacter>
+void each_in_order(const WindowInput& input, const TakeKey& take_key,
+                   const TakeCharacter& take_character) {
+    auto typed = input.characters.begin();
+    for (std::size_t keys = 0; keys <= input.keys.size(); ++keys) {
+        if (keys > 0) take_key(input.keys[keys - 1]);
+        for (; typed != input.characters.end() && typed->keys <= keys; ++typed)
+            take_character(*typed);
+    }
+}
 
 /// The input that the window's callbacks collect.
 struct PendingInput {

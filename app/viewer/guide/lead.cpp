@@ -139,6 +139,7 @@ void ViewerLead::begin_step(LeadStep step, ViewerState& state) {
     state.ui.lead = LeadShown{.step = step, .words = words_of(step)};
     state.ui.show_touch = step == LeadStep::choose;
     since_s_ = time_s_;
+    until_s_ = time_s_ + kStep_s;
     done_s_.reset();
     stroked_to_.reset();
     picture_.reset();
@@ -156,9 +157,14 @@ void ViewerLead::follow(const DepthBlend& shown, double now_s, ViewerState& stat
         keep_led();
         begin_step(LeadStep::press, state);
     }
-    if (!done_s_ && is_done(shown, state)) done_s_ = time_s_;
-    if (!done_s_ && stroked_to_) since_s_ += turn_s;  // a stroke may take longer
-    if (time_s_ > done_s_.value_or(since_s_ + kStep_s) + (done_s_ ? kDone_s : 0.0)) {
+    const double stroked_px = stroked_px_;
+    if (!done_s_ && is_done(shown, state)) {
+        done_s_ = time_s_;
+        until_s_ = time_s_ + kDone_s;
+    } else if (!done_s_ && stroked_px_ > stroked_px) {
+        until_s_ += turn_s;  // a stroke may take longer
+    }
+    if (time_s_ > until_s_) {
         const LeadStep last = state.ui.lead->step;
         const bool hidden = last == LeadStep::stroke && !state.settings.panels_visible;
         if (last == LeadStep::choose || hidden) return end(state);

@@ -12,8 +12,8 @@
 
 namespace dibhr {
 
-/// Shows the steps and takes no input: each step ends when the person has done it, or after 6.5 s
-/// in which the jumper is not stroked.
+/// Shows the steps and takes no input: each step ends when the person has done it, or after 6.5 s;
+/// that of the stroke not while a finger moves on the jumper.
 class ViewerLead {
   public:
     /// The sample is shown: leads, unless somebody was led before, or the regions lack the nose or
@@ -45,7 +45,8 @@ class ViewerLead {
     double turn_s_{0.0};                // when the last turn was
     double time_s_{0.0};                // since the first step began
     double since_s_{0.0};               // of that time, when this step began
-    std::optional<double> done_s_{};    // likewise, when the person had done the step
+    double until_s_{0.0};               // likewise, when it ends
+    std::optional<double> done_s_{};    // likewise, when the person had done it
     std::optional<Vec3> stroked_to_{};  // the proxy on the jumper in the last turn
     double stroked_px_{0.0};
 };

@@ -11,14 +11,16 @@
 namespace dibhr {
 
 std::optional<double> texture_slope(const DepthImage& image) {
-    constexpr int kSide_px = 4;
+    constexpr int kLeastSide_px = 4;
+    constexpr int kSidesAcross = 240;
     constexpr std::size_t kLeastSlopes = 100;
-    const cv::Size squares(image.columns / kSide_px, image.rows / kSide_px);
+    const int side_px = std::max(kLeastSide_px, image.columns / kSidesAcross);
+    const cv::Size squares(image.columns / side_px, image.rows / side_px);
     if (squares.width < 2 || squares.height < 2) return std::nullopt;
     // OpenCV has no constant images; resize() only reads it.
     const cv::Mat1f levels(image.rows, image.columns, const_cast<float*>(image.levels.data()));
     cv::Mat1f means;
-    cv::resize(levels(cv::Rect({0, 0}, squares * kSide_px)), means, squares, 0.0, 0.0,
+    cv::resize(levels(cv::Rect({0, 0}, squares * side_px)), means, squares, 0.0, 0.0,
                cv::INTER_AREA);
     std::vector<float> slopes;
     for (int j = 0; j + 1 < squares.height; ++j)
@@ -31,7 +33,7 @@ std::optional<double> texture_slope(const DepthImage& image) {
     if (slopes.size() < kLeastSlopes) return std::nullopt;
     const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
     std::nth_element(slopes.begin(), middle, slopes.end());
-    return static_cast<double>(*middle) / kSide_px / image.highest_level;
+    return static_cast<double>(*middle) / side_px / image.highest_level;
 }
 
 }  // namespace dibhr

@@ -36,6 +36,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kPaperRelief = 255.0 / 720.0;  ///< of the width
+/// Half of a still's slopes may be steeper: 45 degrees, where a bump map still looks like one.
+constexpr double kMostSlope = 1.0;
 constexpr double kPaperWidth_mm = 101.6;
 constexpr std::int64_t kMostCounted = 3000;  ///< frames decoded to describe a video exactly
 
@@ -77,8 +79,9 @@ std::optional<double> sparse_share_of(PictureSource& depth, const DepthScale& sc
     return meter.sparse_share();
 }
 
+/// Of a still.
 std::optional<double> texture_slope_of(PictureSource& depth, const DepthScale& scale) {
-    if (!depth.facts().still || !scale.meaning()) return std::nullopt;
+    if (!depth.facts().still) return std::nullopt;
     const std::vector<cv::Mat> pictures = depth.samples(1);
     return pictures.empty() ? std::nullopt : texture_slope(middle_of(pictures.front(), scale));
 }
@@ -264,12 +267,9 @@ std::string motion_trouble(const MediaDescription& media) {
 Fit fit_of(const MediaDescription& media) {
     if (media.true_fit) return *media.true_fit;
     const double columns = std::max(media.depth_columns, 2);
-    constexpr double kSteepAllOver = 1.0;
-    constexpr double kSlopeOfTexture = 0.5;
-    double relief_px = kPaperRelief * columns;
-    const double slope = media.texture_slope.value_or(0.0) * relief_px;
-    if (slope > kSteepAllOver) relief_px *= kSlopeOfTexture / slope;
-    return {relief_px, kPaperWidth_mm / columns};
+    const double paper_px = kPaperRelief * columns;
+    const double slope = media.texture_slope.value_or(0.0) * paper_px;
+    return {paper_px / std::max(slope / kMostSlope, 1.0), kPaperWidth_mm / columns};
 }
 
 CleaningOptions cleaning_on(const MediaDescription& media, CleaningOptions asked) {

@@ -84,8 +84,7 @@ struct DepthRequest {
     bool paints{true};  ///< depth alone is shown in colours of its own
 };
 
-/// The relief and the pitch that fit a media. A still that is steep all over, as a bump map is, has
-/// less relief than a scene, so that half of its slopes are below 0.5.
+/// The relief and the pitch that fit a media.
 struct Fit {
     double relief_px;  ///< of the highest level
     double pixel_pitch_mm;
@@ -147,7 +146,9 @@ enum class StatedBy { options, sidecar };
                                       StatedBy way = StatedBy::options);
 
 /// The paper's proportions at any picture size: the height from farthest to nearest is 255/720 of
-/// the width, and the width is a Falcon's reach, 101.6 mm. A true shape keeps its millimetres.
+/// the width, and the width is a Falcon's reach, 101.6 mm. A true shape keeps its millimetres. A
+/// still that is steep all over, as a bump map is, has less relief: half of its slopes are at most
+/// 1.
 [[nodiscard]] Fit fit_of(const MediaDescription& media);
 
 /// Why its motion is found badly or not at all, as one sentence; empty: no reason.

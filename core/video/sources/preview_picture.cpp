@@ -23,7 +23,8 @@ cv::Mat smaller(const ColourImage& image, int side) {
     const cv::Mat rgb(image.rows, image.columns, CV_8UC3,
                       const_cast<std::uint8_t*>(image.rgb.data()));  // only read
     cv::Mat small;
-    cv::resize(rgb, small, {image.columns / side, image.rows / side}, 0.0, 0.0, cv::INTER_AREA);
+    const cv::Size squares(image.columns / side, image.rows / side);
+    cv::resize(rgb(cv::Rect({0, 0}, squares * side)), small, squares, 0.0, 0.0, cv::INTER_AREA);
     cv::cvtColor(small, small, cv::COLOR_RGB2BGR);
     return small;
 }
