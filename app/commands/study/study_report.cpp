@@ -25,10 +25,13 @@ void visit_fields(Row& row, const Visit& visit) {
     visit("interval", row.interval);
     visit("condition", row.condition);
     visit("practice", row.practice);
+    visit("device", row.device);
     auto& motion = row.motion;
     visit("updates", motion.updates);
     visit("contact_updates", motion.contact_updates);
     visit("moves", motion.moves);
+    visit("hand_updates", motion.hand.all);
+    visit("mouse_updates", motion.hand.mouse_fallback);
     visit("duration_s", motion.duration_s);
     visit("contact_s", motion.contact_s);
     visit("sent_newton", motion.sent_newton);
