@@ -279,7 +279,8 @@ TEST_CASE("versions of the parameters that look alike are one row, and what chan
             recorder.parameters(parameters);
         }
     };
-    for (TickRecord& tick : made.ticks) tick.settings = 1 + tick.tick / 700;
+    for (TickRecord& tick : made.ticks)
+        tick.settings = static_cast<std::uint64_t>(1 + tick.tick / 700);
     record(folder / "a.dibhr", made);
     report(folder / "a.dibhr", folder / "out");
     const std::string page = read_text(folder / "out/report.html");
