@@ -2,6 +2,7 @@
 #include "device/call_record.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <iterator>
 #include <limits>
 #include <sstream>
@@ -9,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/files/write_failure.hpp"
 
 namespace dibhr {
 
@@ -37,8 +39,7 @@ CallRecorder::CallRecorder(const std::filesystem::path& file, std::string_view k
     : stream_(file) {
     stream_.precision(17);
     stream_ << first_line(kind) << "\n# " << one_line(library) << '\n' << kLegend << '\n';
-    if (!stream_.flush())
-        throw InputError(file.string() + " cannot be written: choose another place");
+    if (!stream_.flush()) throw InputError(file.string() + ": " + write_failure(errno));
 }
 
 void CallRecorder::add(Clock::time_point asked, const RecordedCall& call) {
@@ -111,7 +112,7 @@ FoundRecord read_call_record(const std::filesystem::path& file, std::string_view
         if (line.starts_with("# ")) record->notes_.push_back(line.substr(2));
         if (first || line.starts_with('#') || record->add(line, count, by_parameter)) continue;
         return {nullptr, one_line(file.string()) + ", line " + std::to_string(number) +
-                             ", is no call of a record: send for the file again"};
+                             ", is not a call of a record: send for the file again"};
     }
     return {std::move(record), {}};
 }

@@ -221,6 +221,15 @@ std::string unknown_option(const CLI::App& app, const Arguments& arguments) {
     return {};
 }
 
+/// Names all options that are needed and were not given, where CLI11 names the first. Empty: none.
+std::string missing_options(const CLI::App& app) {
+    std::vector<std::string> missing;
+    for (const CLI::Option* const option : app.get_options())
+        if (option->get_required() && option->count() == 0) missing.push_back(option->get_name());
+    if (missing.size() < 2) return {};
+    return listed(missing, " and ") + " are required";
+}
+
 /// The words for which the command has no place. Empty: there are none.
 std::string words_too_many(const CLI::App& app) {
     std::vector<std::string> words = app.remaining();
@@ -249,6 +258,9 @@ bool parse(CLI::App& app, const Arguments& arguments) {
     } catch (const CLI::ParseError& error) {
         std::string problem = unknown_option(app, arguments);
         if (problem.empty()) problem = words_too_many(app);
+        if (problem.empty() &&
+            error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError))
+            problem = missing_options(app);
         if (problem.empty()) problem = error.what();
         throw UsageError(problem + " (see " + app.get_name() + " --help)");
     }

@@ -100,7 +100,7 @@ int simulate(const std::string& what) {
         }
         if (kind.play != nullptr && kind.play(what, print)) return 0;
     }
-    throw InputError(what + " is no record of a device: give a file of dibhr devices --record");
+    throw InputError(what + " is not a record of a device: give a file of dibhr devices --record");
 }
 
 /// Nothing: `what` can be simulated.

@@ -295,7 +295,7 @@ std::string man_page(const std::vector<DocumentedCommand>& commands) {
            "Colour and depth video is shown as a moving relief that a hand feels: contact, "
            "friction and roughness are rendered a thousand times a second with Depth Image\\-Based "
            "Haptic Rendering (Cha, Eid and El Saddik, EuroHaptics 2008).\n"
-           "A word that is no command names a file for the viewer to show.\n"
+           "A word that is not a command names a file for the viewer to show.\n"
            ".SH COMMANDS\n";
     for (const DocumentedCommand& command : commands) add_command(page, command);
     add_keys(page);

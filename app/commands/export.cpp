@@ -1,5 +1,7 @@
 // `dibhr export`: the view `tick` as text.
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -14,11 +16,25 @@
 #include "core/files/plain_text.hpp"
 #include "core/report/report_sentences.hpp"
 #include "core/session/session.hpp"
+#include "core/session/session_schema.hpp"
 #include "core/sqlite/csv_rows.hpp"
 
 namespace dibhr {
 
 namespace {
+
+/// A line for each column: its name, and what it means.
+std::string columns_help() {
+    std::string text = "Columns of the CSV; those of `dibhr touch` come first:\n";
+    for (const TickColumn& column : tick_columns()) {
+        constexpr std::size_t kNameWidth = 12;
+        std::string name = "  " + column.name;
+        name.resize(std::max(name.size() + 1, kNameWidth + 2), ' ');
+        text +=
+            name + column.meaning + (column.unit.empty() ? "" : " [" + column.unit + "]") + '\n';
+    }
+    return text + "Tables are those of the session, a SQLite file.\n";
+}
 
 constexpr std::int64_t kRowsPerStep = 10000;  // of the progress bar
 
@@ -79,12 +95,11 @@ int run_export(CLI::App& app, const Arguments& arguments) {
     std::filesystem::path csv;
     add_sessions(app, batch, "Folder for NAME.csv of each session, and export.csv, their summary");
     add_file(app, "--csv", csv, "One row for each tick, of one session; - is standard output");
-    app.footer(
-        "The columns of `dibhr touch` come first; table tick_column of the session explains all.\n"
-        "\nExamples:\n"
-        "  dibhr export mine.dibhr --csv mine.csv\n"
-        "  dibhr export mine.dibhr --csv - | head\n"
-        "  dibhr export recordings --out ticks");
+    app.footer(columns_help() +
+               "\nExamples:\n"
+               "  dibhr export mine.dibhr --csv mine.csv\n"
+               "  dibhr export mine.dibhr --csv - | head\n"
+               "  dibhr export recordings --out ticks");
     if (!parse(app, arguments)) return 0;
     if (batch.is_batch()) {
         if (!csv.empty() || (batch.out.empty() && !batch.list))

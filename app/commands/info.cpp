@@ -182,7 +182,11 @@ std::string percent_text(double probability) {
 
 /// How sure the meaning is, and what else it may be.
 void print_sureness(const DepthConclusion& conclusion) {
-    print_fact("sure", percent_text(conclusion.sure));
+    const std::string all = percent_text(conclusion.sure);
+    const std::string near = percent_text(conclusion.near_sure);
+    const std::string unit = percent_text(conclusion.unit_sure);
+    print_fact("sure",
+               all == near && all == unit ? all : all + " (near " + near + ", unit " + unit + ')');
     for (std::size_t k = 1; k < conclusion.alternatives.size(); ++k) {
         const DepthAlternative& other = conclusion.alternatives[k];
         print_fact("or", statement_text(other.statement) + ", " + percent_text(other.probability));

@@ -56,6 +56,25 @@ void print_extent(const Session& session) {
     }
 }
 
+/// Removes the settings of kinds of devices other than the session's.
+void drop_other_devices(SessionFacts& facts) {
+    const auto device = facts.find("device");
+    const std::string name = device == facts.end() ? "" : device->second;
+    for (const ForceDeviceKind* const kind : force_device_kinds()) {
+        if (name.starts_with(kind->title)) continue;
+        const std::string begin = std::string(kind->name) + '-';
+        std::erase_if(facts, [&begin](const auto& fact) { return fact.first.starts_with(begin); });
+    }
+}
+
+/// A long number with a fraction is rounded to six digits; the JSON has all of them.
+std::string for_people(const std::string& value) {
+    constexpr int kDigits = 6;
+    const bool is_long = value.size() > kDigits + 2 && value.find('.') != std::string::npos;
+    const auto number = is_long ? number_of_text(value) : std::nullopt;
+    return number ? short_text(*number, kDigits) : value;
+}
+
 /// The most important facts first: what was touched, when and how long, with which device and which
 /// parameters.
 void describe_in_words(const Session& session) {
@@ -63,6 +82,8 @@ void describe_in_words(const Session& session) {
     print_fact("kind", "dibhr session");
     const HandTicks hand = hand_ticks(session.reader());
     SessionFacts facts = facts_of_hand(session.facts(), hand, force_device_names());
+    drop_other_devices(facts);
+    for (auto& [name, value] : facts) value = for_people(value);
     std::set<fs::path> printed;
     const auto print_media = [&printed](const char* what, const SessionMedia& media) {
         if (media.file.empty() || !printed.insert(media.file).second) return;

@@ -5,7 +5,6 @@
 
 #include <cerrno>
 #include <csignal>
-#include <cstring>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -18,6 +17,7 @@
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/terminal.hpp"
+#include "core/files/write_failure.hpp"
 #include "core/realtime/priority_broker.hpp"
 
 namespace dibhr {
@@ -31,9 +31,7 @@ constexpr int kBadUsage = 2;
 /// errno holds why writing to standard output failed. EPIPE: the reader ended, no failure.
 int exit_code_of_failed_printing() {
     if (errno == EPIPE) return kSuccess;
-    const std::string reason = std::strerror(errno);
-    print_error_line("standard output: cannot be written (" + reason +
-                     "); make room for it or send it elsewhere");
+    print_error_line("standard output: " + write_failure(errno));
     return kFailure;
 }
 

@@ -30,7 +30,7 @@ std::string toml_of(const Estimator& estimator) {
 }
 
 std::string estimator_hint() {
-    return "Name one that you have installed in the settings, or with dibhr depth COLOR --with "
+    return "If you have installed one, name it: in the settings, or with dibhr depth COLOR --with "
            "\"COMMAND\" --as NAME (dibhr help depth has the commands of some)";
 }
 

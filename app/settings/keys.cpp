@@ -310,7 +310,8 @@ class ValidOwnKeys {
 
   private:
     [[nodiscard]] std::string problem_of(const std::optional<Key>& key, const KeyJob& job) const {
-        if (!key) return "which is no key: write one as dibhr help keys does, like Space or Ctrl+R";
+        if (!key)
+            return "which is not a key: write one as dibhr help keys does, like Space or Ctrl+R";
         if (job.held && held_code(*key) == 0)
             return "which cannot be held: choose one key without Ctrl and Shift";
         if (is_kept_for_force_off(*key) && job.action != Action::force_off)

@@ -140,8 +140,9 @@ void take(const fs::path& file, std::string_view name, const toml::node& node, M
     const auto& all = properties();
     const auto* const found = std::ranges::find(all, name, &Property::name);
     if (found == all.end())
-        refuse(file, node,
-               in_quotes(name) + " is no property of a material: those are " + known_properties());
+        refuse(
+            file, node,
+            in_quotes(name) + " is not a property of a material: those are " + known_properties());
     take_number(file, *found, node, material);
 }
 
@@ -172,7 +173,7 @@ void require_own_name(const std::string& name) {
                             name.back() != ' ' && std::ranges::all_of(name, fits);
     if (!names_file)
         throw InputError(in_quotes(name) +
-                         " is no name for a material: use letters, digits, spaces and hyphens");
+                         " is not a name for a material: use letters, digits, spaces and hyphens");
     if (name == kAsRecorded || contains(material_names().shipped, name))
         throw InputError(in_quotes(name) +
                          " is a material that comes with the program: choose another name");

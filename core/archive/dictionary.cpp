@@ -18,20 +18,17 @@ namespace {
 /// The columns of the view `tick`. Files of earlier schemas explain fewer: this schema explains
 /// the rest.
 void add_tick_columns(Json& json, const Session& session) {
-    constexpr std::string_view kExplained = "SELECT name, unit, meaning FROM tick_column";
-    const Database here(":memory:");
-    here.execute(session_schema());
     std::map<std::string, Json> known;
-    const auto take = [&known](Statement rows) {
-        while (rows.next()) known[rows.text(0)] = column(rows.text(2), rows.text(1));
-    };
-    take(Statement(here, kExplained));
-    take(session.reader().rows(kExplained));
+    for (Statement rows = session.reader().rows("SELECT name, unit, meaning FROM tick_column");
+         rows.next();)
+        known[rows.text(0)] = column(rows.text(2), rows.text(1));
+    for (const TickColumn& own : tick_columns())
+        known.emplace(own.name, column(own.meaning, own.unit));
     const Statement ticks = session.reader().rows("SELECT * FROM tick");
     for (int k = 0; k < ticks.columns(); ++k) json[ticks.name(k)] = known[ticks.name(k)];
     Json levels = Json::object();
     for (Statement row = session.reader().rows("SELECT code, name FROM cut"); row.next();)
-        levels[row.text(0)] = row.text(1);
+        levels[row.text(0)] = row.text(1).empty() ? "not cut" : row.text(1);
     if (json.contains("cut")) json["cut"]["Levels"] = std::move(levels);
 }
 

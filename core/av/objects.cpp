@@ -16,6 +16,7 @@ extern "C" {
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/files/write_failure.hpp"
 
 namespace dibhr {
 
@@ -96,8 +97,8 @@ std::string reason_of(int error) {
 
 void require_written(int result, const std::string& subject) {
     if (result < 0)
-        throw InputError(subject + "cannot be written (" + reason_of(result) +
-                         "); choose another folder or make room for it");
+        throw InputError(subject + "cannot be written (" + reason_of(result) + "); " +
+                         step_after_failed_writing(AVUNERROR(result)));
 }
 
 }  // namespace dibhr

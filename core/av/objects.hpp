@@ -66,7 +66,7 @@ class AvOptions {
 [[nodiscard]] std::string reason_of(int error);
 
 /// Throws InputError where libav's result is negative: "the video cannot be written (No space left
-/// on device); choose another folder or make room for it", where `subject` is "the video ".
+/// on device); make room for it, or choose another place", where `subject` is "the video ".
 void require_written(int result, const std::string& subject = {});
 
 }  // namespace dibhr

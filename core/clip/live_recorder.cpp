@@ -3,6 +3,7 @@
 
 #include <pthread.h>
 
+#include <cerrno>
 #include <exception>
 #include <fstream>
 #include <map>
@@ -12,6 +13,7 @@
 
 #include "core/clip/live_track.hpp"
 #include "core/error.hpp"
+#include "core/files/write_failure.hpp"
 #include "core/video/formats/libraries.hpp"
 
 namespace dibhr {
@@ -28,8 +30,9 @@ void make_new(const fs::path& file) {
     if (fs::exists(file, unknown))
         throw InputError(file.string() +
                          " exists already: move it away, or give the recording another name");
+    errno = 0;
     if (!std::ofstream(file, std::ios::binary))
-        throw InputError(file.string() + " cannot be written: choose another folder");
+        throw InputError(file.string() + ": " + write_failure(errno));
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ double CsvTable::number(std::size_t column) const {
         refuse(which + in_quotes(cell) + " is out of range; give a smaller number");
     }
     if (error != std::errc() || stop != end || !std::isfinite(value)) {
-        refuse(which + in_quotes(cell) + " is no finite number; give one such as 12.5");
+        refuse(which + in_quotes(cell) + " is not a finite number; give one such as 12.5");
     }
     return value;
 }

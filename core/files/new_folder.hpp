@@ -21,7 +21,7 @@ class NewFolder {
     void commit();
 
   private:
-    [[noreturn]] void fail(const std::string& reason) const;
+    [[noreturn]] void fail(int error) const;
 
     std::filesystem::path target_;
     std::filesystem::path temporary_{};  ///< empty after commit()

@@ -9,7 +9,6 @@
 #include <csignal>
 #include <cstddef>
 #include <cstdio>
-#include <cstring>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -17,6 +16,7 @@
 #include "core/error.hpp"
 #include "core/files/new_folder.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/files/write_failure.hpp"
 
 namespace dibhr {
 
@@ -219,10 +219,9 @@ fs::path OutputFile::commit_beside() {
 }
 
 void OutputFile::fail(const char* what) const {
-    const std::string reason = std::strerror(errno);
+    const int error = errno;
     const std::string name = owned_ ? target_.string() : "standard output";
-    throw InputError(name + ": " + what + " (" + reason +
-                     "); choose another file or make room for it");
+    throw InputError(name + ": " + write_failure(error, what));
 }
 
 void write_file(const fs::path& target, std::string_view bytes) {
@@ -243,7 +242,7 @@ NewFolder::NewFolder(const fs::path& target)
         fs::path name = target_;
         name += kPart + std::to_string(::getpid()) + "-" + std::to_string(number);
         if (fs::create_directory(name, failed)) temporary_ = name;
-        if (failed) fail(failed.message());
+        if (failed) fail(failed.value());
     }
     lock_ = ::open(temporary_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     ::flock(lock_, LOCK_EX | LOCK_NB);  // as in OutputFile
@@ -256,15 +255,14 @@ NewFolder::~NewFolder() {
 }
 
 void NewFolder::commit() {
-    if (!flush_folder(temporary_)) fail(std::strerror(errno));
-    if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(std::strerror(errno));
+    if (!flush_folder(temporary_)) fail(errno);
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
     temporary_.clear();
-    if (!flush_folder(target_.parent_path())) fail(std::strerror(errno));
+    if (!flush_folder(target_.parent_path())) fail(errno);
 }
 
-void NewFolder::fail(const std::string& reason) const {
-    throw InputError(target_.string() + ": cannot be made (" + reason +
-                     "); name another folder or make room for it");
+void NewFolder::fail(int error) const {
+    throw InputError(target_.string() + ": " + write_failure(error, "cannot be made"));
 }
 
 OutputFolder::OutputFolder(const fs::path& folder, std::vector<std::string> names)
@@ -273,15 +271,16 @@ OutputFolder::OutputFolder(const fs::path& folder, std::vector<std::string> name
     made_ = make_folders(folder_, failed);
     try {
         if (failed)
-            throw InputError(folder_.string() + " cannot take files (" + failed.message() +
-                             "): choose a folder you may write to");
+            throw InputError(folder_.string() + ": " +
+                             write_failure(failed.value(), "cannot take files"));
         for (const std::string& name : names_) {
             std::error_code ignored;
             const fs::file_status status = fs::status(folder_ / name, ignored);
             if (fs::exists(status) && !fs::is_regular_file(status)) {
-                throw InputError((folder_ / name).string() +
-                                 " is in the way: it is no file that could be replaced; move it or "
-                                 "choose another folder");
+                throw InputError(
+                    (folder_ / name).string() +
+                    " is in the way: it is not a file that could be replaced; move it or "
+                    "choose another folder");
             }
         }
         const OutputFile probe(folder_ / ".dibhr-probe");  // leaves nothing: never committed

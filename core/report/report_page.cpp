@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/files/plain_text.hpp"
@@ -110,12 +112,37 @@ std::string marks_section(const SessionReport& report) {
                    }));
 }
 
+/// Of rows that begin with their time: bold where a cell is not that of the row before.
+void mark_changes(std::vector<Cells>& rows) {
+    for (std::size_t row = rows.size(); row-- > 1;)
+        for (std::size_t k = 1; k < rows[row].size(); ++k)
+            if (rows[row][k] != rows[row - 1][k])
+                rows[row][k] = "<strong>" + rows[row][k] + "</strong>";
+}
+
+/// Versions that differ in nothing that is shown are one row; those that no tick used are left out.
 std::string parameters_section(const SessionReport& report) {
-    const auto versions = first_of(report.session.parameters());
-    if (versions.empty()) return section("Parameters", "<p>None were recorded.</p>\n");
-    return section("Parameters", table_of(versions, [&](const SessionParameters& parameters) {
-                       return parameters_fields(report, parameters);
-                   }));
+    const auto& used_from_s = report.numbers.settings_from_s;
+    Cells heads;
+    std::vector<Cells> rows;
+    for (const SessionParameters& parameters : report.session.parameters()) {
+        if (!used_from_s.empty() && !used_from_s.contains(parameters.version)) continue;
+        Fields row = parameters_fields(report, parameters);
+        heads = std::move(row.heads);
+        if (rows.empty() ||
+            !std::equal(rows.back().begin() + 1, rows.back().end(), row.cells.begin() + 1))
+            rows.push_back(std::move(row.cells));
+    }
+    if (rows.empty()) return section("Parameters", "<p>None were recorded.</p>\n");
+    const std::size_t changes = rows.size() - 1;
+    rows.resize(std::min(rows.size(), kMostRows));
+    mark_changes(rows);
+    return section("Parameters",
+                   "<p>" +
+                       (changes == 0 ? "They stayed the same."
+                                     : counted(static_cast<std::int64_t>(changes), "change") +
+                                           "; what changed is bold.") +
+                       "</p>\n" + table_of(heads, rows));
 }
 
 std::string files_section(const SessionReport& report) {

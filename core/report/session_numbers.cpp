@@ -40,7 +40,7 @@ class Counter {
         numbers_.duration_s = end_s - session_.begin_s();
         if (!std::isfinite(numbers_.duration_s))
             throw InputError(session_.file().string() +
-                             ": is damaged (times that are no numbers); copy it again");
+                             ": is damaged (times that are not numbers); copy it again");
         numbers_.episodes = episodes_.finish();
         return std::move(numbers_);
     }

@@ -9,13 +9,13 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <ctime>
 #include <string_view>
 
 #include "core/error.hpp"
 #include "core/files/machine.hpp"
 #include "core/files/utc_text.hpp"
+#include "core/files/write_failure.hpp"
 #include "core/haptics/surface.hpp"
 
 namespace dibhr {
@@ -39,8 +39,8 @@ const std::filesystem::path& made(const std::filesystem::path& file) {
     }
     if (errno == EEXIST)
         throw InputError(file.string() + ": exists already; choose another name for the session");
-    throw InputError(file.string() + ": the session cannot be recorded there (" +
-                     std::strerror(errno) + "); choose a folder that can be written to");
+    throw InputError(file.string() + ": " +
+                     write_failure(errno, "the session cannot be recorded there"));
 }
 
 /// A new session file with its tables, in write-ahead mode: readers do not stop the recording.

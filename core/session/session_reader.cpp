@@ -294,7 +294,7 @@ void SessionReader::refuse(const DatabaseError& error) {
 }
 
 void SessionReader::refuse(const std::string& reason) const {
-    throw InputError(file_.string() + ": is no session that can be read (" + brief(reason) +
+    throw InputError(file_.string() + ": is not a session that can be read (" + brief(reason) +
                      (schema_ > kSessionSchemaVersion ? "); update dibhr"
                                                       : "); choose a file that dibhr recorded"));
 }

@@ -67,7 +67,7 @@ struct Column {
     std::string_view type;
     std::string expression;
     std::string_view unit;
-    std::string_view meaning;
+    std::string meaning;
 };
 
 /// The bits of `state` from `shift` on.
@@ -143,6 +143,14 @@ std::string primitive_name() {
     return text + " END";
 }
 
+/// "0 not cut, 1 not finite, ...".
+std::string cut_codes() {
+    std::string text = "0 not cut";
+    for (int code = 1; code <= static_cast<int>(kLastSafetyCut); ++code)
+        text += ", " + std::to_string(code) + ' ' + name_of(static_cast<SafetyCut>(code));
+    return text;
+}
+
 /// The output rows' columns first, by the same names and in the same order.
 std::array<Column, 41> columns() {
     namespace at = tick_state;
@@ -188,7 +196,7 @@ std::array<Column, 41> columns() {
         {"lateness_us", "REAL", time_of("d.lateness", kNanosecondsPerMicrosecond), "us",
          "how long after its deadline the tick began"},
         {"buttons", "INTEGER", bits(at::kButtons, 255), "", "bit 0: the device's main button"},
-        {"cut", "INTEGER", bits(at::kCut, 7), "", "why the force was cut: code in table cut"},
+        {"cut", "INTEGER", bits(at::kCut, 7), "", "why the force was cut: " + cut_codes()},
         {"surface", "INTEGER", flag_unless(at::kNoSurface), "",
          "1: there was a surface; without, nothing is updated and no force sent"},
         {"ready", "INTEGER", flag_unless(at::kNotReady), "",
@@ -216,7 +224,7 @@ std::string explanations() {
     std::string text;
     for (const Column& column : columns())
         text += "INSERT INTO tick_column VALUES(" + quoted(column.name) + "," +
-                quoted(column.unit) + "," + quoted(column.meaning) + ");\n";
+                quoted(column.unit) + "," + quoted(std::string_view(column.meaning)) + ");\n";
     for (int code = 0; code <= static_cast<int>(kLastSafetyCut); ++code)
         text += "INSERT INTO cut VALUES(" + std::to_string(code) + "," +
                 quoted(name_of(static_cast<SafetyCut>(code))) + ");\n";
@@ -255,6 +263,13 @@ std::string first_schema_value(const Column& column) {
 }
 
 }  // namespace
+
+std::vector<TickColumn> tick_columns() {
+    std::vector<TickColumn> explained;
+    for (const Column& column : columns())
+        explained.push_back({std::string(column.name), std::string(column.unit), column.meaning});
+    return explained;
+}
 
 std::string tick_view(std::string_view create) {
     std::string select;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace dibhr {
 
@@ -25,6 +26,14 @@ inline constexpr int kLongestSessionValue_bytes = 1 << 20;
 /// tick that follows from the rest of its row is not stored in `tick_data`; the view `tick`
 /// computes it.
 [[nodiscard]] std::string session_schema();
+
+/// A column of the view `tick`, as table tick_column explains it.
+struct TickColumn {
+    std::string name{}, unit{}, meaning{};
+};
+
+/// In the order of the view.
+[[nodiscard]] std::vector<TickColumn> tick_columns();
 
 /// The tables that are read of a session, besides the view `tick`.
 inline constexpr std::array<std::string_view, 8> kSessionTables{

@@ -143,7 +143,7 @@ SurfaceReader::Levels SurfaceReader::levels(std::int64_t id, double highest) {
     return kept(levels_, id, [&] {
         Grid read = grid(id);
         const auto is_level = [](float level) { return std::isfinite(level); };
-        if (!std::ranges::all_of(read.values, is_level)) refuse("a level is no number");
+        if (!std::ranges::all_of(read.values, is_level)) refuse("a level is not a number");
         return Levels{std::make_shared<DepthImage>(
                           DepthImage{read.columns, read.rows, highest, std::move(read.values)}),
                       std::make_shared<std::vector<std::uint8_t>>(std::move(read.stored))};

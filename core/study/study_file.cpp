@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <iomanip>
 #include <sstream>
@@ -18,6 +17,7 @@
 #include "core/files/json.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/files/write_failure.hpp"
 #include "core/sqlite/database.hpp"
 #include "core/study/toml_page.hpp"
 
@@ -83,9 +83,7 @@ Database::ErrorHandler refusal_of(const fs::path& file) {
 /// A file that holds nothing is an empty database.
 void make_if_missing(const fs::path& file) {
     const int made = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-    if (made < 0)
-        refuse(file, std::string("cannot be written (") + std::strerror(errno) +
-                         "): name a folder that can be, with --out");
+    if (made < 0) refuse(file, write_failure(errno) + " (--out)");
     ::close(made);
 }
 
@@ -207,7 +205,7 @@ std::vector<AnsweredTrial> answered_in(const Database& database, const fs::path&
 
 void require_kind(const Database& database, const fs::path& file) {
     if (database.number("PRAGMA application_id") != kStudyApplicationId || version_of(database) < 1)
-        refuse(file, "is no study of dibhr: name a file that dibhr study run made");
+        refuse(file, "is not a study of dibhr: name a file that dibhr study run made");
 }
 
 /// Only the dibhr of its version, or a later one, writes into a study.
@@ -260,9 +258,10 @@ void require_label(const std::string& label) {
     const bool fits = is_bare_name(label) && label.size() <= kLongestLabel &&
                       label.front() != '-' && label.front() != '_';
     if (!fits)
-        throw InputError(in_quotes(label) +
-                         " is no label of a participant: use letters, digits, - and _, at most 40, "
-                         "and a letter or a digit first");
+        throw InputError(
+            in_quotes(label) +
+            " is not a label of a participant: use letters, digits, - and _, at most 40, "
+            "and a letter or a digit first");
 }
 
 std::optional<int> number_in(const std::string& label) {

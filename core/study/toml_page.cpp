@@ -114,7 +114,7 @@ std::optional<std::size_t> PageTable::choice_index(const std::string& key,
     if (!value) return std::nullopt;
     const auto found = std::find(words.begin(), words.end(), *value);
     if (found == words.end())
-        refuse(key, key + " is not " + in_quotes(*value) + ", but must be one of " + listed(words) +
+        refuse(key, key + " must be one of " + listed(words) + ", and not " + in_quotes(*value) +
                         did_you_mean(*value, words));
     return static_cast<std::size_t>(found - words.begin());
 }

@@ -51,7 +51,7 @@ void require_study_file(const std::filesystem::path& file) {
     const bool holds_something = std::ifstream(file).get() != std::ifstream::traits_type::eof();
     if (holds_something && !is_database(file))  // else read_study says what is wrong
         throw InputError(file.string() +
-                         ": is no study file: name one that dibhr study run made "
+                         ": is not a study file: name one that dibhr study run made "
                          "(*.dibhr-study), or a folder of them");
 }
 

@@ -74,28 +74,36 @@ Json number_from_one(int index) {
     return index < 0 ? Json() : Json(index + 1);
 }
 
-void add_motion(Fields& row, const IntervalMotion& motion) {
+/// A mean over the time in contact: scripts read 0 without any, the page shows no value.
+void add_in_contact(Fields& row, const FieldName& name, const IntervalMotion& motion, double value,
+                    int digits, const std::string& head) {
+    row.add(name, value);
+    row.show(head, motion.touched() ? number_cell(value, digits) : kNoCell);
+}
+
+void add_motion(Fields& row, const IntervalMotion& motion, bool felt = true) {
     const VariationStatistics& turning = motion.turning;
     const auto moves = static_cast<double>(motion.moves);
     const auto updates = static_cast<double>(motion.updates);
     row.fixed("duration_s", motion.duration_s, 1, "time [s]");
     row.add("contact_s", motion.contact_s);
-    row.show("in contact", percent_text(motion.contact_share()));
+    row.show("in contact", motion.touched() ? percent_text(motion.contact_share()) : "not touched");
     row.add("updates", motion.updates);
     row.add("contact_updates", motion.contact_updates);
     row.add({"", "moves"}, motion.moves);
     row.add({"/moves_per_update", ""}, motion.updates > 0 ? moves / updates : 0.0);
-    row.significant({"/force_sent_newton/mean", "sent_newton"}, motion.sent_newton, 3,
-                    "force sent, mean [N]");
-    row.significant({"/force_sent_newton/peak", "sent_peak_newton"}, motion.sent_peak_newton, 3,
-                    "peak [N]");
+    add_in_contact(row, {"/force_sent_newton/mean", "sent_newton"}, motion, motion.sent_newton, 3,
+                   std::string("force ") + (felt ? "sent" : "computed") + ", mean [N]");
+    add_in_contact(row, {"/force_sent_newton/peak", "sent_peak_newton"}, motion,
+                   motion.sent_peak_newton, 3, "peak [N]");
     row.add({"/force_spring_newton/mean", "spring_newton"}, motion.spring_newton);
     row.add({"/force_spring_newton/peak", "spring_peak_newton"}, motion.spring_peak_newton);
     row.add("path_mm", motion.path_mm);
-    row.significant("speed_mm_per_s", motion.speed_mm_per_s(), 3, "speed [mm/s]");
-    row.significant({"/variation_deg/mean", "turning_mean_deg"}, turning.mean_deg, 4,
-                    "turning of the force [deg]");
-    row.significant({"/variation_deg/sd", "turning_sd_deg"}, turning.sd_deg, 4, "sd [deg]");
+    add_in_contact(row, "speed_mm_per_s", motion, motion.speed_mm_per_s(), 3, "speed [mm/s]");
+    add_in_contact(row, {"/variation_deg/mean", "turning_mean_deg"}, motion, turning.mean_deg, 4,
+                   "turning of the force [deg]");
+    add_in_contact(row, {"/variation_deg/sd", "turning_sd_deg"}, motion, turning.sd_deg, 4,
+                   "sd [deg]");
     row.add({"/variation_deg/pairs", "turning_pairs"}, turning.pairs);
 }
 
@@ -243,11 +251,11 @@ Fields fields_of(const PairTest& pair, const std::string& compared) {
     return row;
 }
 
-Fields fields_of(const MotionFinding& found) {
+Fields fields_of(const MotionFinding& found, bool felt) {
     Fields row;
     row.plain("condition", found.condition, "condition");
     row.plain("intervals", found.intervals, "intervals");
-    add_motion(row, found.all);
+    add_motion(row, found.all, felt);
     row.add({"/participants_mean/contact_share", ""}, estimate_json(found.contact_share));
     row.add({"/participants_mean/force_sent_newton", ""}, estimate_json(found.sent_newton));
     row.add({"/participants_mean/speed_mm_per_s", ""}, estimate_json(found.speed_mm_per_s));
@@ -255,7 +263,7 @@ Fields fields_of(const MotionFinding& found) {
     return row;
 }
 
-Fields fields_of(const StudyRecord& record) {
+Fields fields_of(const StudyRecord& record, const ParticipantHand& hand) {
     const StudyIdentity& who = record.identity;
     Fields row;
     row.plain("participant", who.participant, "label");
@@ -265,6 +273,8 @@ Fields fields_of(const StudyRecord& record) {
     row.add("created_s", who.created_s);
     row.add("finished", record.finished);
     row.plain("trials", record.answered.size(), "trials");
+    row.add("device", devices_text(hand));
+    row.show("device", hand.devices.empty() ? kNoCell : html_text(devices_text(hand)));
     row.show("finished", record.finished ? "yes" : "no");
     row.show("who", who.pilot.empty() ? "a person" : "simulated: " + html_text(who.pilot));
     row.show("begun", html_text(wall_time_text(who.created_s)));

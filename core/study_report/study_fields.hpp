@@ -16,8 +16,9 @@ namespace dibhr {
 [[nodiscard]] Fields fields_of(const ValueFinding& value);
 /// `compared`: BlockFindings::compared.
 [[nodiscard]] Fields fields_of(const PairTest& pair, const std::string& compared);
-[[nodiscard]] Fields fields_of(const MotionFinding& found);
-[[nodiscard]] Fields fields_of(const StudyRecord& record);
+/// `felt`: no participant used the mouse, so that every force was sent to a device.
+[[nodiscard]] Fields fields_of(const MotionFinding& found, bool felt);
+[[nodiscard]] Fields fields_of(const StudyRecord& record, const ParticipantHand& hand);
 
 /// `{"value", "low", "high", "confidence", "count"}`.
 [[nodiscard]] Json estimate_json(const Estimate& estimate);

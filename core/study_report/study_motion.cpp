@@ -18,14 +18,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kMouse = "mouse";  // in the session's fact "device"
+
 /// A tick counts for at most this time: a program that was stopped did not touch.
 constexpr double kLongestUpdate_s = 0.020;
 
 /// Sums over one interval's ticks.
 class IntervalSums {
   public:
-    void add(const TickRecord& tick, double held_s, double pitch_mm) {
+    void add(const TickRecord& tick, double held_s, double pitch_mm, bool mouse) {
         ++motion_.updates;
+        motion_.hand.all += tick.surface ? 1 : 0;
+        motion_.hand.mouse_fallback += tick.surface && (mouse || tick.mouse_fallback) ? 1 : 0;
         motion_.moves += tick.moves;
         motion_.duration_s += held_s;
         goals_.push_back(tick.goal);
@@ -90,6 +94,28 @@ double weighted(double a, double of_a, double b, double of_b) noexcept {
     return of_a + of_b > 0.0 ? (a * of_a + b * of_b) / (of_a + of_b) : 0.0;
 }
 
+HandTicks joined_hand(const HandTicks& a, const HandTicks& b) noexcept {
+    return {a.all + b.all, a.mouse_fallback + b.mouse_fallback};
+}
+
+bool is_mouse_only(const HandTicks& hand) noexcept {
+    return hand.all > 0 && hand.mouse_fallback >= hand.all;
+}
+
+/// The place of a row's condition among the protocol's: motion_condition() begins with its name.
+std::size_t place_of(const std::string& row_condition, const Protocol& protocol) {
+    std::size_t place = protocol.conditions.size();
+    std::size_t longest = 0;
+    for (std::size_t k = 0; k < protocol.conditions.size(); ++k) {
+        const std::string& name = protocol.conditions[k].name;
+        if (row_condition != name && !row_condition.starts_with(name + ", ")) continue;
+        if (name.size() < longest) continue;
+        longest = name.size();
+        place = k;
+    }
+    return place;
+}
+
 /// Mean and standard deviation of both groups of pairs together.
 VariationStatistics joined_turning(const VariationStatistics& a, const VariationStatistics& b) {
     const auto of_a = static_cast<double>(a.pairs);
@@ -111,6 +137,7 @@ std::vector<IntervalMotion> motion_in(const Session& session, std::size_t interv
     const double pitch_mm = session.parameters().empty()
                                 ? kPaperPitch_mm
                                 : session.parameters().front().touch.coupling.pixel_pitch_mm;
+    const bool mouse = session.fact("device") == kMouse;
     std::vector<IntervalMotion> motion(intervals);
     std::vector<IntervalSums> sums(pieces.size());
     constexpr double kSameMoment_s = 1e-6;
@@ -125,7 +152,7 @@ std::vector<IntervalMotion> motion_in(const Session& session, std::size_t interv
         const bool counts = next_piece > 0 && pieces[next_piece - 1].interval;
         if (!counts) continue;  // before the first mark, or in a pause
         const double held_s = more ? next.t_s - tick.t_s : tick.dt_s;
-        sums[next_piece - 1].add(tick, std::clamp(held_s, 0.0, kLongestUpdate_s), pitch_mm);
+        sums[next_piece - 1].add(tick, std::clamp(held_s, 0.0, kLongestUpdate_s), pitch_mm, mouse);
     }
     for (std::size_t k = 0; k < pieces.size(); ++k) {
         if (!pieces[k].interval) continue;
@@ -139,6 +166,7 @@ IntervalMotion joined(const IntervalMotion& a, const IntervalMotion& b) noexcept
     return {.updates = a.updates + b.updates,
             .contact_updates = a.contact_updates + b.contact_updates,
             .moves = a.moves + b.moves,
+            .hand = joined_hand(a.hand, b.hand),
             .duration_s = a.duration_s + b.duration_s,
             .contact_s = a.contact_s + b.contact_s,
             .sent_newton = weighted(a.sent_newton, a.contact_s, b.sent_newton, b.contact_s),
@@ -175,7 +203,7 @@ std::vector<IntervalRow> motion_of(const Study& study,
             for (std::size_t n = 0; n < motion.size(); ++n)
                 rows.push_back({participant, trial.number, static_cast<int>(n),
                                 motion_condition(block, trial.intervals[n]), trial.practice,
-                                motion[n], trial.intervals[n].value});
+                                session.fact("device"), motion[n], trial.intervals[n].value});
             if (progress)
                 progress(
                     (static_cast<double>(participant) +
@@ -186,32 +214,62 @@ std::vector<IntervalRow> motion_of(const Study& study,
     return rows;
 }
 
-std::vector<MotionFinding> motion_findings(const std::vector<IntervalRow>& rows) {
-    std::map<std::string, std::map<std::size_t, IntervalMotion>> by_condition;
-    std::map<std::string, int> intervals;
+std::vector<MotionFinding> motion_findings(const Protocol& protocol,
+                                           const std::vector<IntervalRow>& rows) {
+    using Name = std::pair<std::size_t, std::string>;  // in the protocol's order
+    std::map<Name, std::map<std::size_t, IntervalMotion>> by_condition;
+    std::map<Name, int> intervals;
     for (const IntervalRow& row : rows) {
         if (row.practice) continue;
-        ++intervals[row.condition];
-        IntervalMotion& of = by_condition[row.condition][row.participant];
+        const Name name{place_of(row.condition, protocol), row.condition};
+        ++intervals[name];
+        IntervalMotion& of = by_condition[name][row.participant];
         of = joined(of, row.motion);
     }
     std::vector<MotionFinding> findings;
-    for (const auto& [condition, by_participant] : by_condition) {
-        MotionFinding found{.condition = condition, .intervals = intervals[condition]};
+    for (const auto& [name, by_participant] : by_condition) {
+        MotionFinding found{.condition = name.second, .intervals = intervals[name]};
         const auto& people = by_participant;
         for (const auto& [participant, motion] : people) found.all = joined(found.all, motion);
-        const auto mean = [&people](const auto& quantity) {
+        const auto mean = [&people](const auto& quantity, const auto& is_known) {
             std::vector<double> values;
-            for (const auto& [participant, motion] : people) values.push_back(quantity(motion));
+            for (const auto& [participant, motion] : people)
+                if (is_known(motion)) values.push_back(quantity(motion));
             return mean_of(values);
         };
-        found.contact_share = mean([](const IntervalMotion& m) { return m.contact_share(); });
-        found.sent_newton = mean([](const IntervalMotion& m) { return m.sent_newton; });
-        found.speed_mm_per_s = mean([](const IntervalMotion& m) { return m.speed_mm_per_s(); });
-        found.turning_deg = mean([](const IntervalMotion& m) { return m.turning.mean_deg; });
+        const auto any = [](const IntervalMotion&) { return true; };
+        const auto touched = [](const IntervalMotion& m) { return m.touched(); };
+        const auto turned = [](const IntervalMotion& m) { return m.turning.pairs > 0; };
+        found.contact_share = mean([](const auto& m) { return m.contact_share(); }, any);
+        found.sent_newton = mean([](const auto& m) { return m.sent_newton; }, touched);
+        found.speed_mm_per_s = mean([](const auto& m) { return m.speed_mm_per_s(); }, touched);
+        found.turning_deg = mean([](const auto& m) { return m.turning.mean_deg; }, turned);
         findings.push_back(std::move(found));
     }
     return findings;
+}
+
+bool ParticipantHand::used_mouse() const noexcept {
+    return std::ranges::any_of(devices,
+                               [](const auto& device) { return device.second.mouse_fallback > 0; });
+}
+
+bool ParticipantHand::used_only_mouse() const noexcept {
+    return !devices.empty() && std::ranges::all_of(devices, [](const auto& device) {
+        return is_mouse_only(device.second);
+    });
+}
+
+std::vector<ParticipantHand> hands_in(const std::vector<IntervalRow>& rows,
+                                      std::size_t participants) {
+    std::vector<ParticipantHand> hands(participants);
+    for (const IntervalRow& row : rows) {
+        const HandTicks& ticks = row.motion.hand;
+        if (ticks.all == 0) continue;
+        HandTicks& of = hands[row.participant].devices[is_mouse_only(ticks) ? kMouse : row.device];
+        of = joined_hand(of, ticks);
+    }
+    return hands;
 }
 
 }  // namespace dibhr

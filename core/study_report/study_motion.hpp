@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ struct IntervalMotion {
     std::int64_t updates{0};
     std::int64_t contact_updates{0};
     std::int64_t moves{0};  ///< of the proxy from primitive to primitive
+    HandTicks hand{};       ///< a mouse that was asked for counts like one that replaced a device
     double duration_s{0.0};
     double contact_s{0.0};
     double sent_newton{0.0}, sent_peak_newton{0.0};
@@ -30,6 +32,7 @@ struct IntervalMotion {
     /// without separating reversals.
     VariationStatistics turning{};
 
+    [[nodiscard]] bool touched() const noexcept { return contact_updates > 0; }
     [[nodiscard]] double contact_share() const noexcept {
         return duration_s > 0.0 ? contact_s / duration_s : 0.0;
     }
@@ -53,6 +56,7 @@ struct IntervalRow {
     int interval{0};
     std::string condition{};  ///< with the varied parameter: motion_condition()
     bool practice{false};
+    std::string device{};  ///< that was asked for, by the session: "Novint Falcon 1234"
     IntervalMotion motion{};
     std::optional<double> value{};  ///< of the varied parameter; nothing: none varies
 };
@@ -69,10 +73,25 @@ struct MotionFinding {
     std::string condition{};
     IntervalMotion all{};  ///< of all intervals joined
     int intervals{0};
-    // Means over participants, each one's intervals joined.
+    // Means over participants, each one's intervals joined; all but the first over those who
+    // touched it, not known where nobody did.
     Estimate contact_share{}, sent_newton{}, speed_mm_per_s{}, turning_deg{};
 };
 
-[[nodiscard]] std::vector<MotionFinding> motion_findings(const std::vector<IntervalRow>& rows);
+/// In the order of the protocol's conditions.
+[[nodiscard]] std::vector<MotionFinding> motion_findings(const Protocol& protocol,
+                                                         const std::vector<IntervalRow>& rows);
+
+/// With what one participant touched, in all intervals that were recorded.
+struct ParticipantHand {
+    std::map<std::string, HandTicks> devices{};  ///< "mouse": nothing else was there
+
+    [[nodiscard]] bool used_mouse() const noexcept;
+    [[nodiscard]] bool used_only_mouse() const noexcept;  ///< no force was felt
+};
+
+/// One for each of the study's participants.
+[[nodiscard]] std::vector<ParticipantHand> hands_in(const std::vector<IntervalRow>& rows,
+                                                    std::size_t participants);
 
 }  // namespace dibhr

@@ -1,4 +1,5 @@
 // The report's numbers for scripts: JSON with stable names, units in them.
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,13 @@ Json texts_json(const std::vector<std::string>& texts) {
     return json_list(texts, [](const std::string& text) -> Json { return utf8_text(text); });
 }
 
+Json participants_json(const StudyReport& report) {
+    Json list = Json::array();
+    for (std::size_t k = 0; k < report.study.participants.size(); ++k)
+        list.push_back(fields_of(report.study.participants[k], report.hands[k]).json);
+    return list;
+}
+
 Json block_json(const StudyReport& report, const BlockFindings& found) {
     const Block& block = report.study.protocol.blocks[found.block];
     return {{"name", utf8_text(block.name)},
@@ -79,14 +87,16 @@ std::string json_of(const StudyReport& report) {
                         {"seed", study.protocol.seed},
                         {"name", utf8_text(study.participants.front().identity.protocol_name)},
                         {"sha256", study.protocol.sha256}}},
-                      {"participants", json_list(study.participants, kObject)},
+                      {"participants", participants_json(report)},
                       {"summary", summary_of(report)},
                       {"limits", texts_json(limits_of(report))},
                       {"blocks", json_list(report.blocks,
                                            [&report](const BlockFindings& found) {
                                                return block_json(report, found);
                                            })},
-                      {"motion", json_list(report.motion, kObject)}});
+                      {"motion", json_list(report.motion, [&report](const MotionFinding& found) {
+                           return fields_of(found, report.forces_were_felt()).json;
+                       })}});
 }
 
 }  // namespace dibhr

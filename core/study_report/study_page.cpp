@@ -1,4 +1,5 @@
 // The report as one HTML page that needs nothing beside it.
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,12 @@ std::string block_section(const StudyReport& report, const BlockFindings& found)
     return section(html_text(block.name), body);
 }
 
+std::string participants_table(const StudyReport& report) {
+    std::size_t next = 0;
+    return table_of(report.study.participants,
+                    [&](const StudyRecord& one) { return fields_of(one, report.hands[next++]); });
+}
+
 std::string conditions_section(const Study& study) {
     std::vector<Cells> rows;
     for (const Condition& condition : study.protocol.conditions)
@@ -74,9 +81,11 @@ std::string page_of(const StudyReport& report) {
     for (const BlockFindings& found : report.blocks) page += block_section(report, found);
     if (!report.motion.empty())
         page += section("What was done and felt",
-                        figures_html(report, "motion") + table_of(report.motion, kRow));
-    return page + conditions_section(study) +
-           section("Participants", table_of(study.participants, kRow)) +
+                        figures_html(report, "motion") +
+                            table_of(report.motion, [&report](const MotionFinding& found) {
+                                return fields_of(found, report.forces_were_felt());
+                            }));
+    return page + conditions_section(study) + section("Participants", participants_table(report)) +
            section("How it was computed", definitions_html(methods_of(report))) +
            protocol_section(study) +
            page_foot(report.program,

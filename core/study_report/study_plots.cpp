@@ -168,6 +168,9 @@ Canvas plot_rows(const RowsPlot& plot) {
         if (std::isfinite(row.value))
             canvas.marker({axes.at(row.value, 0.0).x, y_px}, Marker::diamond, 13.0, found_ink(),
                           kPaper);
+        else
+            canvas.text({area.left + 12.0, y_px + kNumberCap_px / 2.0}, plot.no_value,
+                        {kQuietInk, kNumberCap_px});
         y_px += kRow_px;
     }
     canvas.clip_to_whole();

@@ -13,7 +13,7 @@ namespace dibhr {
 /// A line of a plot of rows: an estimate with its interval, over the participants' own values.
 struct PlotRow {
     std::string name{};
-    double value{0.0};
+    double value{0.0};           ///< not finite: none
     Interval interval{};         ///< an infinite end leaves the plot; two: none is drawn
     std::vector<double> each{};  ///< NaN: none
 };
@@ -26,6 +26,7 @@ struct RowsPlot {
     std::optional<double> line{};  ///< of chance, or no difference
     std::string line_name{};
     std::optional<Interval> span{};  ///< of the axis; nothing: as the values need
+    std::string no_value{};          ///< written in a row without a value
 };
 
 /// There must be a row.

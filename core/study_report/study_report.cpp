@@ -138,25 +138,34 @@ void draw_motion(const Drawing& drawing) {
         counted(static_cast<std::int64_t>(report.intervals.size()), "interval") + " recorded";
     const auto draw = [&](const char* name, const char* title, const char* what, const char* axis,
                           Estimate MotionFinding::*quantity) {
-        RowsPlot plot{.title = title, .subtitle = subtitle, .axis = axis};
+        RowsPlot plot{
+            .title = title, .subtitle = subtitle, .axis = axis, .no_value = "not touched"};
         for (const MotionFinding& found : report.motion) {
             const Estimate& of = found.*quantity;
             PlotRow row{.name = found.condition, .value = of.value, .interval = of.interval};
             if (!std::isfinite(of.interval.low)) row.interval = {of.value, of.value};
             plot.rows.push_back(std::move(row));
         }
-        drawing.figures.add(name, title,
-                            std::string(what) + ", by condition; 95 % intervals over participants.",
-                            plot_rows(plot));
+        drawing.figures.add(
+            name, title,
+            std::string(what) + ", by condition; 95 % intervals over participants who touched it.",
+            plot_rows(plot));
     };
-    draw("motion-force", "Force while touching", "Mean force sent while in contact",
-         "mean force sent [N]", &MotionFinding::sent_newton);
+    const bool felt = report.forces_were_felt();
+    draw("motion-force", "Force while touching",
+         felt ? "Mean force sent while in contact"
+              : "Mean force computed while in contact (with the mouse no force is felt)",
+         felt ? "mean force sent [N]" : "mean force computed [N]", &MotionFinding::sent_newton);
     draw("motion-turning", "How the force turned",
          "Mean turning of the force from update to update", "turning of the force [deg per update]",
          &MotionFinding::turning_deg);
 }
 
 }  // namespace
+
+bool StudyReport::forces_were_felt() const noexcept {
+    return std::ranges::none_of(hands, &ParticipantHand::used_mouse);
+}
 
 std::vector<std::string> write_study_report(const std::vector<std::filesystem::path>& files,
                                             const StudyReportRequest& request) {
@@ -176,7 +185,8 @@ std::vector<std::string> write_study_report(const std::vector<std::filesystem::p
                                       : motion_of(report.study, [&progress](double share) {
                                             if (progress) progress(0.5 + 0.5 * share);
                                         });
-    report.motion = motion_findings(report.intervals);
+    report.motion = motion_findings(report.study.protocol, report.intervals);
+    report.hands = hands_in(report.intervals, report.study.participants.size());
     const Drawing drawing{report, {folder, request.plot_formats, report.figures}};
     for (const BlockFindings& found : report.blocks) {
         draw_shares(drawing, found);

@@ -21,8 +21,12 @@ struct StudyReport {
     std::vector<BlockFindings> blocks{};
     std::vector<IntervalRow> intervals{};  ///< empty: no session was recorded
     std::vector<MotionFinding> motion{};
+    std::vector<ParticipantHand> hands{};  ///< in the order of the participants
     std::vector<Figure> figures{};
     std::string program{};  ///< that made the report, with its version
+
+    /// No participant used the mouse, with which no force is felt.
+    [[nodiscard]] bool forces_were_felt() const noexcept;
 };
 
 struct StudyReportRequest {

@@ -199,6 +199,33 @@ std::string pilots_text(const Study& study) {
            "people's files alone. ";
 }
 
+void add_mouse_limits(const StudyReport& report, std::vector<std::string>& limits) {
+    std::vector<std::string> only;
+    std::vector<std::string> at_times;
+    for (std::size_t k = 0; k < report.hands.size(); ++k) {
+        if (!report.hands[k].used_mouse()) continue;
+        (report.hands[k].used_only_mouse() ? only : at_times)
+            .push_back(report.study.participants[k].identity.participant);
+    }
+    if (!only.empty())
+        limits.push_back("With the mouse, and so without feeling any force: " + listed(only) +
+                         ". These answers are of what was seen and heard, and the forces in this "
+                         "report were computed, but sent to no device.");
+    if (!at_times.empty())
+        limits.push_back("At times with the mouse, and then without feeling any force: " +
+                         listed(at_times) + ".");
+}
+
+/// "this device (mouse)", "these devices (Novint Falcon 12, mouse)".
+std::string devices_used(const StudyReport& report) {
+    std::set<std::string> names;
+    for (const ParticipantHand& hand : report.hands)
+        for (const auto& [name, ticks] : hand.devices) names.insert(name);
+    if (names.empty()) return "the device that was used";
+    return (names.size() == 1 ? "this device (" : "these devices (") +
+           listed({names.begin(), names.end()}) + ")";
+}
+
 }  // namespace
 
 std::string end_text(double end) {
@@ -307,10 +334,17 @@ std::vector<std::string> limits_of(const StudyReport& report) {
                          listed({programs.begin(), programs.end()}) + ".");
     if (report.intervals.empty())
         limits.emplace_back("No trial's session was recorded: there are no forces or motions.");
-    limits.emplace_back(
-        "What holds here holds for this device, these videos and these settings; a difference that "
-        "was felt is not by itself a better or worse one.");
+    add_mouse_limits(report, limits);
+    limits.push_back("What holds here holds for " + devices_used(report) +
+                     ", these videos and these settings; a difference that was felt is not by "
+                     "itself a better or worse one.");
     return limits;
+}
+
+std::string devices_text(const ParticipantHand& hand) {
+    std::vector<std::string> devices;
+    for (const auto& [name, ticks] : hand.devices) devices.push_back(device_text(name, ticks));
+    return listed(devices);
 }
 
 std::vector<Definition> methods_of(const StudyReport& report) {

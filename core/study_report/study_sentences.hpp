@@ -31,4 +31,7 @@ namespace dibhr {
 /// How the numbers were computed, with sources; only what the report has.
 [[nodiscard]] std::vector<Definition> methods_of(const StudyReport& report);
 
+/// "Novint Falcon 1234, mouse"; empty: no interval was recorded.
+[[nodiscard]] std::string devices_text(const ParticipantHand& hand);
+
 }  // namespace dibhr

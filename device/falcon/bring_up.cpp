@@ -244,7 +244,7 @@ bool upload(FtdiPort& port, Bytes image, const UploadOptions& options,
             const std::stop_token& stop) {
     if (const std::string fault = fault_of_firmware(image); !fault.empty()) {
         throw UploadError("no firmware was sent to " + full_name_of(port.falcon()) +
-                          ", because the file is no firmware: " + fault + "; " +
+                          ", because the file is not firmware: " + fault + "; " +
                           where_firmware_comes_from());
     }
     int silent = 0;

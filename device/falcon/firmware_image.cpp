@@ -200,7 +200,8 @@ std::vector<std::uint8_t> bytes_of_file(const fs::path& file) {
         throw InputError("there is no file " + file.string() + "; " + where_firmware_comes_from());
     }
     if (fs::is_directory(status)) refuse(file, "it is a folder");
-    if (fs::exists(status) && !fs::is_regular_file(status)) refuse(file, "it is no ordinary file");
+    if (fs::exists(status) && !fs::is_regular_file(status))
+        refuse(file, "it is not an ordinary file");
     const std::uintmax_t size = fs::file_size(file, failed);
     if (!failed && size > kMostBytes) refuse(file, too_large(size));
 

@@ -103,7 +103,7 @@ TEST_CASE("a value that is no finite number is refused with its line and column"
         std::string row;
         std::string refusal;
     };
-    const auto advice = std::string(" is no finite number; give one such as 12.5");
+    const auto advice = std::string(" is not a finite number; give one such as 12.5");
     const auto bad = GENERATE_COPY(values<Case>({
         {"0,nan,2,3", "3: column x: 'nan'" + advice},
         {"0,1,-inf,3", "3: column y: '-inf'" + advice},

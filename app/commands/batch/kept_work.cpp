@@ -16,6 +16,7 @@
 #include "core/files/content_hash.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/text_file.hpp"
+#include "core/files/write_failure.hpp"
 
 namespace dibhr {
 
@@ -137,8 +138,8 @@ void make_folders_of(const KeptWork& work, const std::vector<GivenFile>& files) 
     for (const GivenFile& file : files)
         if (!failed) make_folders(state_file(work, file).parent_path(), failed);
     if (failed)
-        throw InputError(work.folder.string() + ": cannot take the results (" + failed.message() +
-                         "); name a folder that you may write to");
+        throw InputError(work.folder.string() + ": " +
+                         write_failure(failed.value(), "cannot take the results"));
 }
 
 /// Runs what is not done.

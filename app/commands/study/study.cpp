@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -33,6 +34,7 @@
 #include "core/files/spelling.hpp"
 #include "core/haptics/enum_names.hpp"
 #include "core/realtime/now.hpp"
+#include "core/report/report_sentences.hpp"
 #include "core/study/protocol.hpp"
 #include "core/study/study_file.hpp"
 #include "core/study/study_run.hpp"
@@ -106,7 +108,7 @@ fs::path protocol_named(const fs::path& name) {
     const std::vector<std::string> shipped = toml_names_in(folder);
     if (std::ranges::find(shipped, name.string()) != shipped.end())
         return folder / (name.string() + ".toml");
-    throw InputError(shown(name) + " is no file, and no study that comes with the program (" +
+    throw InputError(shown(name) + " is neither a file nor a study that comes with the program (" +
                      listed(shipped) + ")" + did_you_mean(name.string(), shipped));
 }
 
@@ -201,7 +203,8 @@ int run(const StudyOptions& options) {
     if (!file.answered().empty())
         std::cout << "goes on at trial " << file.answered().size() + 1 << '\n';
     pilot ? run_pilot(steps, file, *pilot) : run_with_person(options, steps, file);
-    std::cout << file.file().string() << ": " << steps.answered().size() << " trials"
+    std::cout << file.file().string() << ": "
+              << counted(static_cast<std::int64_t>(steps.answered().size()), "trial")
               << (steps.step() == StudyStep::finished
                       ? ""
                       : "; run it again with the same label to go on")
@@ -225,7 +228,7 @@ int extract_sessions(const StudyOptions& options) {
     if (written == 0)
         throw InputError(shown(options.file()) +
                          " holds no session: a pilot that only answers records none");
-    std::cout << written << " sessions in " << options.folder().string() << '\n';
+    std::cout << counted(written, "session") << " in " << options.folder().string() << '\n';
     return 0;
 }
 

@@ -9,8 +9,9 @@ namespace dibhr {
 /// Prints conditions, blocks, trials and minutes, and warns of possible mistakes.
 void print_protocol(const Protocol& protocol);
 
-/// Prints which device is attached, how late ticks are, and for each kind of force device the
-/// conditions that exceed its stiffness and the least stability margin. Takes a second.
+/// Prints which device is attached, how late ticks are, for each attached kind of force device the
+/// conditions that exceed its stiffness and the least stability margin (of the others in one line),
+/// and in the last line whether the study can be run here. Takes a second.
 void print_readiness(const Protocol& protocol);
 
 }  // namespace dibhr

@@ -18,6 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Counts changes of the kept rows' fields: rows of an earlier dibhr are measured again.
+constexpr const char* kKeptRows = "rows 2";
+
 /// Calls `visit` with each field's name and the field, of a row or of a const one.
 template <typename Row, typename Visit>
 void visit_fields(Row& row, const Visit& visit) {
@@ -25,10 +28,13 @@ void visit_fields(Row& row, const Visit& visit) {
     visit("interval", row.interval);
     visit("condition", row.condition);
     visit("practice", row.practice);
+    visit("device", row.device);
     auto& motion = row.motion;
     visit("updates", motion.updates);
     visit("contact_updates", motion.contact_updates);
     visit("moves", motion.moves);
+    visit("hand_updates", motion.hand.all);
+    visit("mouse_updates", motion.hand.mouse_fallback);
     visit("duration_s", motion.duration_s);
     visit("contact_s", motion.contact_s);
     visit("sent_newton", motion.sent_newton);
@@ -98,9 +104,12 @@ std::vector<IntervalRow> measure_all(const Study& study, const fs::path& folder,
         participants.push_back(k);
     }
     if (wanted.empty()) return {};
-    const std::vector<WorkResult> results = work_through(
-        {.command = "study", .title = "Measuring the study", .folder = folder, .work = measured},
-        wanted);
+    const std::vector<WorkResult> results = work_through({.command = "study",
+                                                          .options = kKeptRows,
+                                                          .title = "Measuring the study",
+                                                          .folder = folder,
+                                                          .work = measured},
+                                                         wanted);
     std::vector<IntervalRow> rows;
     for (std::size_t k = 0; k < results.size(); ++k) {
         read.failures.insert(read.failures.end(), results[k].failures.begin(),

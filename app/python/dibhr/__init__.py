@@ -11,6 +11,17 @@ Grid space throughout: x = column, y = row (down), z = elevation towards the vie
 of the depth image. Forces are newtons along the same axes, times seconds.
 """
 
+import importlib.util as _importing
+import sys as _sys
+
+if _importing.find_spec("._dibhr", __name__) is None:
+    raise ImportError(
+        f"the compiled part of dibhr is not beside {__file__} for Python "
+        f"{_sys.version_info.major}.{_sys.version_info.minor}: build it with "
+        "app/prepare release dibhr_python in dibhr's folder, and import dibhr with "
+        "PYTHONPATH=build/release/python"
+    )
+
 from . import _dibhr
 from ._renderer import ALGORITHMS, PARAMETERS, Parameter, Renderer, Touch
 from ._rows import TICK_ROW, TOUCH_ROW, vectors

@@ -40,7 +40,7 @@ def _levels(picture: NDArray[Any], what: str, highest: float) -> NDArray[np.floa
 def _bump(given: Any) -> NDArray[np.float32]:
     heights = np.ascontiguousarray(_picture(given, "bump", 1), np.float32)
     if not np.isfinite(heights).all():
-        raise InputError("bump: a height is no finite number")
+        raise InputError("bump: a height is not a finite number")
     stretched: NDArray[np.float32] = heights - heights.min()
     highest = stretched.max()
     if highest > 0:

@@ -62,5 +62,5 @@ def finite_numbers(
     right = np.isfinite(numbers)
     if not right.all():
         place = np.argwhere(~right)[0]
-        raise InputError(f"{what}{place.tolist()}: {numbers[tuple(place)]} is no finite number")
+        raise InputError(f"{what}{place.tolist()}: {numbers[tuple(place)]} is not a finite number")
     return numbers

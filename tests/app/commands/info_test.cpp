@@ -219,6 +219,29 @@ TEST_CASE("info says of a session what people want to know first, and what decod
     }
 }
 
+TEST_CASE("info rounds a session's numbers and names the settings of its device alone", "[info]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "color.png", 64, 48, 20, 3);
+    write_depth_png(folder / "depth.png", 32, 24, 100, 1);
+    record_session(folder / "mine.dibhr",
+                   {.colour = folder / "color.png", .depth = folder / "depth.png"});
+    run_shell(folder,
+              "sqlite3 mine.dibhr \"INSERT OR REPLACE INTO session VALUES"
+              "('relief', '226.66666666666669'), ('libx', '1.10'), ('falcon-gear', '7.7'), "
+              "('device', 'Haply Inverse3 (049D)'), ('inverse3-tilt', '20')\"");
+    const ProgramResult result = run_dibhr(folder, {"info", "mine.dibhr"});
+    INFO(result.output << result.errors);
+    REQUIRE(result.exit_code == 0);
+    CHECK(says(result, "relief            226.667\n"));
+    CHECK(says(result, "libx              1.10\n"));
+    CHECK(says(result, "inverse3-tilt     20\n"));
+    CHECK_FALSE(says(result, "falcon-gear"));
+    const Json facts =
+        parsed_json(run_dibhr(folder, {"info", "mine.dibhr", "--json"}).output)["facts"];
+    CHECK(facts["relief"] == "226.66666666666669");
+    CHECK(facts["falcon-gear"] == "7.7");
+}
+
 TEST_CASE("info says for how much of a session the mouse stood in", "[info]") {
     const int mouse_fallback = GENERATE(0, 1, 372, 1000);
     const TemporaryFolder folder;

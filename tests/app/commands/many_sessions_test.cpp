@@ -82,7 +82,7 @@ TEST_CASE("a folder of sessions is replayed to the same bytes by one process and
     CHECK(contains(lines[0], ",pga_differs,"));
     CHECK(contains(lines[0], ",fact device,"));
     CHECK(lines[1].starts_with("recordings/a.dibhr,,0.999,1000,0,"));
-    CHECK(contains(lines[2], "is no session that can be read"));
+    CHECK(contains(lines[2], "is not a session that can be read"));
     CHECK(lines[3].starts_with("recordings/of/P07/b.dibhr,,0.499,500,0,"));
     CHECK(lines[4].starts_with("recordings/without-ending,,0.499,500,0,"));
     CHECK(fs::exists(folder / "one/of/P07/b.replay.json"));

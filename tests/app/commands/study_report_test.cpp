@@ -121,7 +121,7 @@ TEST_CASE("a report takes studies of folders at any depth, passes a bad one over
     const ProgramResult made = run_dibhr(folder, words);
     INFO(made.errors);
     CHECK(made.exit_code == 1);
-    CHECK(contains(made.errors, "a/P08.dibhr-study: is no study file"));
+    CHECK(contains(made.errors, "a/P08.dibhr-study: is not a study file"));
     CHECK(made.errors.find('\n') == made.errors.size() - 1);
     CHECK(std::filesystem::exists(folder / "r/b/P07.study.json"));
     const std::string intervals = read_text(folder / "r/intervals.csv");
@@ -129,6 +129,13 @@ TEST_CASE("a report takes studies of folders at any depth, passes a bad one over
     const auto measured = std::filesystem::last_write_time(folder / "r/b/P07.study.json");
     CHECK(run_dibhr(folder, words).exit_code == 1);
     CHECK(std::filesystem::last_write_time(folder / "r/b/P07.study.json") == measured);
+    CHECK(read_text(folder / "r/intervals.csv") == intervals);
+    // What an earlier dibhr kept, without a device, is measured again.
+    run_shell(folder,
+              "sed -i 's/\"options\":\"[^\"]*\"/\"options\":\"\"/; "
+              "s/\"device\":\"[^\"]*\",//g' r/b/P07.study.json");
+    CHECK(run_dibhr(folder, words).exit_code == 1);
+    CHECK(contains(read_text(folder / "r/b/P07.study.json"), "\"device\":"));
     CHECK(read_text(folder / "r/intervals.csv") == intervals);
 }
 

@@ -194,6 +194,39 @@ TEST_CASE("help and version answer on standard output", "[usage]") {
     CHECK(run_dibhr(folder, {"help", "nothing"}).exit_code == 2);
 }
 
+TEST_CASE("all options that a command needs and was not given are named at once", "[usage]") {
+    const TemporaryFolder folder;
+    const ProgramResult touch = run_dibhr(folder, {"touch"});
+    CHECK(touch.exit_code == 2);
+    CHECK(contains(touch.errors, "--depth and --goals are required (see dibhr touch --help)"));
+    CHECK(contains(run_dibhr(folder, {"touch", "--depth", "a.png"}).errors, "--goals is required"));
+}
+
+TEST_CASE("export explains every column, and the codes of a cut", "[usage]") {
+    const TemporaryFolder folder;
+    const std::string help = run_dibhr(folder, {"export", "--help"}).output;
+    for (const std::string column :
+         {"gx", "cz", "lets_go", "stand_in", "cut", "pair", "source", "ox", "utc_s", "lateness_us"})
+        CHECK(contains(help, "\n  " + column + " "));
+    CHECK(contains(help, "why the force was cut: 0 not cut, 1 not finite, 2 force off, "));
+}
+
+TEST_CASE("app/prepare says how it is used, and which presets there are", "[usage]") {
+    const TemporaryFolder folder;
+    const auto said = [&folder](const std::string& words) {
+        run_shell(folder, "{ '" DIBHR_SOURCE_DIR "/app/prepare' " + words +
+                              " >said 2>&1; echo $? >>said; } </dev/null");
+        return read_text(folder / "said");
+    };
+    const std::string usage =
+        "usage: app/prepare PRESET [TARGET...]\nPRESET is one of: release dev ";
+    CHECK(said("").starts_with(usage));
+    CHECK(said("").ends_with("\n2\n"));
+    CHECK(said("--help").starts_with(usage));
+    CHECK(said("--help").ends_with("\n0\n"));
+    CHECK(said("relaese").starts_with("dibhr: there is no preset 'relaese'; one of: release dev "));
+}
+
 TEST_CASE("app/run takes no command for the viewer but view", "[usage]") {
     const TemporaryFolder folder;
     const std::string script = read_text(DIBHR_RUN_SCRIPT);

@@ -90,6 +90,23 @@ class Types(FolderTest):
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 
 
+class SourceTree(FolderTest):
+    def test_without_the_compiled_part_says_how_to_build_it(self):
+        shutil.copytree(PACKAGE, self.folder / "dibhr", ignore=shutil.ignore_patterns("*.so"))
+        result = subprocess.run(
+            [sys.executable, "-B", "-c", "import dibhr"],
+            cwd=self.folder,
+            env=dict(os.environ, PYTHONPATH=str(self.folder)),
+            capture_output=True,
+            text=True,
+        )
+        self.assertEqual(result.returncode, 1)
+        said = result.stderr.splitlines()[-1]
+        self.assertTrue(said.startswith("ImportError: the compiled part of dibhr is not beside "))
+        self.assertIn("app/prepare release dibhr_python", said)
+        self.assertNotIn("circular", result.stderr)
+
+
 class Example(FolderTest):
     @unittest.skipUnless(importlib.util.find_spec("matplotlib"), "matplotlib is not installed")
     def test_draws_a_picture(self):

@@ -116,7 +116,7 @@ TEST_CASE("a material's file gives its numbers and the map beside it", "[materia
 TEST_CASE("what a material's file lacks is told with its line", "[material]") {
     const TemporaryFolder folder;
     const auto [toml, told] = GENERATE(table<std::string, std::string>({
-        {"stifness = 1\n", "oak.toml:1: 'stifness' is no property of a material"},
+        {"stifness = 1\n", "oak.toml:1: 'stifness' is not a property of a material"},
         {"width = 3\nstiffness = \"soft\"\n", "oak.toml:2: stiffness is not a number from 0 to 10"},
         {"width = 0\n", "oak.toml:1: width is not a number from 0.1 to 1000"},
         {"damping = nan\n", "oak.toml:1: damping is not a number"},

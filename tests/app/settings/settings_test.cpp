@@ -323,10 +323,11 @@ TEST_CASE("a wish for a key that cannot be is told with file and line, and the r
         {{"plai = \"F5\"", "keys.plai is not an action: dibhr help keys lists them"},
          {"\"a b\" = \"F5\"", "keys.a b is not an action: dibhr help keys lists them"},
          {"mark = \"Spcae\"",
-          "keys.mark names 'Spcae', which is no key: write one as dibhr help keys does, like "
+          "keys.mark names 'Spcae', which is not a key: write one as dibhr help keys does, like "
           "Space or Ctrl+R; the default keys stay"},
          {"mark = [\"F5\", \"\"]",
-          "keys.mark names '', which is no key: write one as dibhr help keys does, like Space or "
+          "keys.mark names '', which is not a key: write one as dibhr help keys does, like Space "
+          "or "
           "Ctrl+R; the default keys stay"},
          {"mark = \"F7\"",
           "keys.mark names 'F7', which is already for record: choose another one; the default keys "

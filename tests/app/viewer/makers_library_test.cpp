@@ -344,5 +344,5 @@ TEST_CASE("what a record has is played as a device", "[makers_library][devices][
     write_text(folder / "other.txt", "no record");
     const ProgramResult other = run_dibhr(folder, {"devices", "--simulate", "other.txt"});
     CHECK(other.exit_code == 1);
-    CHECK(says(other.errors, "other.txt is no record of a device"));
+    CHECK(says(other.errors, "other.txt is not a record of a device"));
 }

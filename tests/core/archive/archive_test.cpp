@@ -375,7 +375,7 @@ TEST_CASE("an archive that cannot be whole is not there at all", "[archive]") {
     ArchiveRequest request = recordings.request({good, bad});
     SECTION("a file that is no session") {
         write_text(bad, "text");
-        CHECK(refusal_of(request).starts_with(bad.string() + ": is no session"));
+        CHECK(refusal_of(request).starts_with(bad.string() + ": is not a session"));
     }
     SECTION("a session of a newer dibhr") {
         fs::copy_file(good, bad);

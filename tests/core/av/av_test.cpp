@@ -67,7 +67,7 @@ TEST_CASE("a track that cannot be written says which, why, and what to do", "[av
     const TrackEncoder encoder = delaying_encoder();
     CHECK_THROWS_WITH(
         TrackFile(folder / "nowhere/a.mkv", *encoder.coded(), {.subject = "the video "}),
-        "the video cannot be written (No such file or directory); choose another folder or make "
-        "room for it");
+        "the video cannot be written (No such file or directory); make the folder, or choose "
+        "another");
     CHECK_THROWS_AS(TrackFile(folder / "nowhere/a.mkv", *encoder.coded(), {}), InputError);
 }

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -20,6 +21,7 @@
 #include "core/files/names.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/files/write_failure.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
@@ -184,8 +186,21 @@ TEST_CASE("a link stays a link and a pipe stays a pipe", "[files]") {
 TEST_CASE("a target that cannot be written is refused by name before anything is written",
           "[files]") {
     const TemporaryFolder folder;
-    CHECK_THROWS_AS(OutputFile(folder / "missing" / "out.csv"), InputError);
+    CHECK_THROWS_WITH(OutputFile(folder / "missing" / "out.csv"),
+                      (folder / "missing" / "out.csv").string() +
+                          ": cannot be written (No such file or directory); make the folder, or "
+                          "choose another");
     CHECK_THROWS_AS(OutputFile(folder / ""), InputError);
+}
+
+TEST_CASE("what to do when something cannot be written fits the reason", "[files]") {
+    CHECK(write_failure(EACCES) ==
+          "cannot be written (Permission denied); choose a folder that you may write to");
+    CHECK(step_after_failed_writing(EROFS) == step_after_failed_writing(EACCES));
+    CHECK(step_after_failed_writing(ENOENT) == "make the folder, or choose another");
+    CHECK(test::contains(step_after_failed_writing(ENOSPC), "make room"));
+    for (const int error : {EACCES, ENOENT, ENOTDIR, EISDIR, EIO})
+        CHECK_FALSE(test::contains(step_after_failed_writing(error), "make room"));
 }
 
 TEST_CASE("text is quoted short and on one line, and cells lose what stands around them",

@@ -266,6 +266,30 @@ TEST_CASE("of a session of the mouse alone the report speaks of no device and of
     CHECK(json_at(folder / "out/report.json", "$.parameters[0].first_tick") == "0");
 }
 
+TEST_CASE("versions of the parameters that look alike are one row, and what changed is bold",
+          "[report]") {
+    const TemporaryFolder folder;
+    MadeSession made = two_touches();
+    made.also = [](Recorder& recorder) {
+        SessionParameters parameters;
+        parameters.touch.coupling.pixel_pitch_mm = 0.1;
+        for (const double cutoff_hz : {47.5, 47.5, 32.25}) {
+            ++parameters.version;
+            parameters.touch.coupling.damping_cutoff_hz = cutoff_hz;
+            recorder.parameters(parameters);
+        }
+    };
+    for (TickRecord& tick : made.ticks)
+        tick.settings = static_cast<std::uint64_t>(1 + tick.tick / 700);
+    record(folder / "a.dibhr", made);
+    report(folder / "a.dibhr", folder / "out");
+    const std::string page = read_text(folder / "out/report.html");
+    CHECK(contains(page, "1 change; what changed is bold."));
+    CHECK(count_of(page, "<strong>") == 1);
+    CHECK(contains(page, "<strong>32.25"));
+    CHECK(json_at(folder / "out/report.json", "$.parameters[2].damping_cutoff_hz") == "32.25");
+}
+
 TEST_CASE("what speaks against a picture is said, and the picture stays", "[report]") {
     const TemporaryFolder folder;
     record(folder / "a.dibhr", two_touches());

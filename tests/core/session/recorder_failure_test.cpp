@@ -130,7 +130,7 @@ TEST_CASE("a folder that is not there is named, with what to do", "[session]") {
     CHECK(refusal_of(file) ==
           file.string() +
               ": the session cannot be recorded there (No such file or directory); "
-              "choose a folder that can be written to");
+              "make the folder, or choose another");
 }
 
 TEST_CASE("a folder that cannot be written to is refused and left as it is", "[session]") {

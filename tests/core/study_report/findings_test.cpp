@@ -329,7 +329,7 @@ TEST_CASE("files of another protocol, of the same participant, or with made-up t
                    "another protocol"));
     const auto text_file = folder / "notes.txt";
     write_text(text_file, "P1 was tired");
-    CHECK(contains(refusal({first, text_file}), "is no study file"));
+    CHECK(contains(refusal({first, text_file}), "is not a study file"));
     // Files of a protocol with other blocks: the error must be about the protocol.
     const auto other =
         made("5", "P5", page_of_conditions(2, "[[block]]\nform = \"rating\"\nquestion = \"?\"\n"));

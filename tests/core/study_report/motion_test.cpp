@@ -1,4 +1,6 @@
 // What hands did in the intervals of a trial, from its session.
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -7,6 +9,7 @@
 #include "core/study_report/study_fields.hpp"
 #include "core/study_report/study_motion.hpp"
 #include "core/study_report/study_report.hpp"
+#include "core/study_report/study_sentences.hpp"
 #include "tests/core/report/made_session.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -125,12 +128,87 @@ TEST_CASE("what was done and felt is in the CSV and in the JSON, each number at 
     CHECK(intervals_csv(study, {}) == head);
     CHECK(intervals_csv(study, {{.trial = 2, .interval = 1, .condition = "a", .motion = motion}}) ==
           head + "P1,3,2,a,0,2,1,10,4,7,0.5,3,1.5,5,11,11,0.25,0.75,9,\n");
-    const std::string json =
-        json_line(fields_of(MotionFinding{.condition = "a", .all = motion, .intervals = 1}).json);
+    const std::string json = json_line(
+        fields_of(MotionFinding{.condition = "a", .all = motion, .intervals = 1}, true).json);
     CHECK(json.starts_with(
         R"({"condition":"a","intervals":1,"duration_s":2.0,"contact_s":1.0,"updates":10,)"
         R"("contact_updates":4,"moves_per_update":0.7,)"
         R"("force_sent_newton":{"mean":0.5,"peak":3.0},)"
         R"("force_spring_newton":{"mean":1.5,"peak":5.0},"path_mm":11.0,"speed_mm_per_s":11.0,)"
         R"("variation_deg":{"mean":0.25,"sd":0.75,"pairs":9},"participants_mean":{)"));
+}
+
+namespace {
+
+IntervalRow row_of(std::size_t participant, const std::string& condition,
+                   const IntervalMotion& motion) {
+    return {.participant = participant,
+            .condition = condition,
+            .device = "Novint Falcon",
+            .motion = motion};
+}
+
+const IntervalMotion kTouched{.updates = 10,
+                              .contact_updates = 5,
+                              .hand = {.all = 10},
+                              .duration_s = 2.0,
+                              .contact_s = 1.0,
+                              .sent_newton = 0.5,
+                              .path_mm = 3.0,
+                              .turning = {.mean_deg = 0.25, .pairs = 4}};
+const IntervalMotion kUntouched{.updates = 10, .hand = {.all = 10}, .duration_s = 2.0};
+
+}  // namespace
+
+TEST_CASE("conditions come in the order of the protocol, however they are called",
+          "[study motion]") {
+    Protocol page;
+    for (const char* const name : {"low", "low, soft", "high"})
+        page.conditions.push_back({.name = name});
+    std::vector<IntervalRow> rows;
+    for (const char* const name :
+         {"high", "low, soft, friction above 0.3", "low, friction 0.3", "low, soft"})
+        rows.push_back(row_of(0, name, kTouched));
+    std::vector<std::string> names;
+    for (const MotionFinding& found : motion_findings(page, rows)) names.push_back(found.condition);
+    CHECK(names == std::vector<std::string>{"low, friction 0.3", "low, soft",
+                                            "low, soft, friction above 0.3", "high"});
+}
+
+TEST_CASE("what was not touched has no force instead of a force of zero", "[study motion]") {
+    const std::vector<MotionFinding> found =
+        motion_findings({}, {row_of(0, "a", kTouched), row_of(1, "a", kUntouched),
+                             row_of(0, "b", kUntouched), row_of(1, "b", kUntouched)});
+    REQUIRE(found.size() == 2);
+    CHECK(found[0].sent_newton.value == 0.5);  // of the one who touched it
+    CHECK(found[0].sent_newton.count == 1);
+    CHECK(found[0].contact_share.value == 0.25);  // of both
+    for (const Estimate& none :
+         {found[1].sent_newton, found[1].speed_mm_per_s, found[1].turning_deg}) {
+        CHECK_FALSE(std::isfinite(none.value));
+        CHECK(none.count == 0);
+    }
+    const Fields row = fields_of(found[1], true);
+    CHECK(std::count(row.cells.begin(), row.cells.end(), "not touched") == 1);
+    CHECK(std::count(row.cells.begin(), row.cells.end(), kNoCell) == 5);
+    CHECK(row.json["participants_mean"]["force_sent_newton"]["count"] == 0);
+}
+
+TEST_CASE("a participant's devices are named, and the mouse where nothing else was there",
+          "[study motion]") {
+    IntervalMotion by_mouse = kTouched;
+    by_mouse.hand.mouse_fallback = by_mouse.hand.all;
+    const std::vector<ParticipantHand> hands =
+        hands_in({row_of(0, "a", kTouched), row_of(1, "a", by_mouse), row_of(2, "a", kTouched),
+                  row_of(2, "b", by_mouse)},
+                 4);
+    CHECK_FALSE(hands[0].used_mouse());
+    CHECK(devices_text(hands[0]) == "Novint Falcon");
+    CHECK(hands[1].used_only_mouse());
+    CHECK(devices_text(hands[1]) == "mouse");
+    CHECK(hands[2].used_mouse());
+    CHECK_FALSE(hands[2].used_only_mouse());
+    CHECK(devices_text(hands[2]) == "Novint Falcon, mouse");
+    CHECK(devices_text(hands[3]).empty());
+    CHECK_FALSE(hands[3].used_only_mouse());
 }

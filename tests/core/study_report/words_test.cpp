@@ -97,3 +97,17 @@ TEST_CASE("the summary counts who answered, and warns of who is simulated first"
     for (StudyRecord& record : study.participants) record.identity.pilot = "guess";
     CHECK(summary_of(report_of(study)).starts_with("Simulated: no person has answered"));
 }
+
+TEST_CASE("whoever had only the mouse is named among the limits, and felt no force",
+          "[study words]") {
+    StudyReport report = report_of(kTwo + "pairs = \"all\"\nrepetitions = 5\n", 2, {}, 2);
+    report.hands = {{{{"Novint Falcon (12)", {.all = 9}}}},
+                    {{{"mouse", {.all = 9, .mouse_fallback = 9}}}}};
+    std::string said;
+    for (const std::string& limit : limits_of(report)) said += limit + '\n';
+    CHECK(contains(said, "With the mouse, and so without feeling any force: P2."));
+    CHECK(contains(said, "for these devices (Novint Falcon (12), mouse), these videos"));
+    CHECK_FALSE(report.forces_were_felt());
+    report.hands.pop_back();
+    CHECK(report.forces_were_felt());
+}
