@@ -64,6 +64,7 @@ Viewer::Viewer(const ViewOptions& options, OpeningWindow& opening, ViewerParts p
       clip_(tasks, shutdown.crash_note()),
       estimating_(tasks),
       preparing_(tasks),
+      asking_(tasks),
       browsing_(tasks),
       desktop_(tasks),
       painting_(tasks),

@@ -305,7 +305,7 @@ class Viewer {
     ViewerClip clip_;
     ViewerEstimating estimating_;
     ViewerPreparing preparing_;
-    ViewerAsking asking_{};
+    ViewerAsking asking_;
     std::optional<TurnedDepth> turned_{};  // by the last press of the key
     Reporting reporting_{};
     ViewerExplaining explaining_{};
