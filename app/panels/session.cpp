@@ -45,7 +45,7 @@ void draw_progress(const RecordingInfo& recording) {
     const double per_minute = status.bytes_per_minute / kBytesPerMegabyte;
     fact_row("Size", formatted("%.1f MB", static_cast<double>(status.bytes) / kBytesPerMegabyte) +
                          (per_minute > 0.0 ? formatted(", %.1f MB a minute", per_minute) : ""));
-    fact_row("Lost", status.dropped == 0 ? "no tick" : std::to_string(status.dropped) + " ticks");
+    fact_row("Lost", status.dropped == 0 ? "nothing" : std::to_string(status.dropped) + " ticks");
 }
 
 void draw_about(SessionFields& fields) {
@@ -110,6 +110,7 @@ void draw_session_panel(ViewerState& state) {
         }
         ImGui::SameLine();
         report_button(state, touch.recorded_file);
+        report_row(state, touch.recorded_file);
     }
     draw_about(state.touch.session_fields);
     if (touch.recording) draw_marks(state);

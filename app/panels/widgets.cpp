@@ -179,6 +179,32 @@ bool section(const ViewerState& state, const char* title, bool& open, bool* want
     return open;
 }
 
+namespace {
+
+/// Where a slider stands, along the last item's lower edge: the number above it stays readable.
+void draw_slider_mark(const NumberRow& row, double value) {
+    const double share = row.logarithmic
+                             ? std::log(value / row.lowest) / std::log(row.highest / row.lowest)
+                             : (value - row.lowest) / (row.highest - row.lowest);
+    if (!std::isfinite(share)) return;
+    const ImVec2 low = ImGui::GetItemRectMin();
+    const ImVec2 high = ImGui::GetItemRectMax();
+    const bool lively = ImGui::IsItemHovered() || ImGui::IsItemActive();
+    const ImU32 colour = ImGui::GetColorU32(ImGuiCol_SliderGrabActive);
+    const float line = 0.11F * (high.y - low.y);
+    const float knob = 0.5F * ImGui::GetStyle().GrabMinSize;
+    const float x =
+        low.x + knob +
+        static_cast<float>(std::clamp(share, 0.0, 1.0)) * (high.x - low.x - 2.0F * knob);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled({low.x, high.y - line}, {x, high.y}, ImGui::GetColorU32(ImGuiCol_SliderGrab),
+                       line, ImDrawFlags_RoundCornersBottomLeft);
+    list.AddRectFilled({x - knob, high.y - (lively ? 2.4F : 1.9F) * line}, {x + knob, high.y},
+                       colour, line);
+}
+
+}  // namespace
+
 bool number_row(const NumberRow& row, double& value) {
     const double before = value;
     const bool named = row.zero != nullptr && !(std::abs(value) > 0.0);
@@ -186,10 +212,14 @@ bool number_row(const NumberRow& row, double& value) {
     row_label(row.label, row.help);
     ImGui::SetNextItemWidth(value_width() - row.beside);
     const char* const format = named ? row.zero : row.format;
+    ImGui::PushStyleColor(ImGuiCol_SliderGrab, 0);  // ImGui's lies under the number
+    ImGui::PushStyleColor(ImGuiCol_SliderGrabActive, 0);
     number_item("##value", row.format, value, [&] {
         ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &row.lowest, &row.highest,
                             format, row.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
     });
+    ImGui::PopStyleColor(2);
+    draw_slider_mark(row, value);
     // ImGui rounds a dragged value to the shown digits, but a text instead of 0 has none.
     if (named && ImGui::IsMouseDown(ImGuiMouseButton_Left)) value = std::round(value);
     const bool by_keys =
@@ -255,7 +285,7 @@ void text_beside_flag(const std::string& text) {
 
 void desktop_dialog_box(OpenWith& with) {
     bool asks = with != OpenWith::window;
-    if (item::checkbox("The desktop's dialog", &asks))
+    if (item::checkbox("Use the desktop's dialog next time", &asks))
         with = asks ? OpenWith::automatic : OpenWith::window;
     add_tooltip("Files are chosen in the desktop's own dialog, where there is one (--open-dialog)");
 }
@@ -304,8 +334,20 @@ float half_width() {
 }
 
 void report_button(ViewerState& state, const std::filesystem::path& session) {
-    if (item::button("Report", {-1.0F, 0.0F})) state.commands.push(MakeReport{session});
+    const bool makes = state.ui.report.being_made;
+    ImGui::BeginDisabled(makes);
+    if (item::button(makes ? "Making it###report" : "Report###report", {-1.0F, 0.0F}))
+        state.commands.push(MakeReport{session});
+    ImGui::EndDisabled();
     add_tooltip("One page: where, how long and how hard it was touched (dibhr report)");
+}
+
+void report_row(const ViewerState& state, const std::filesystem::path& session) {
+    const ReportShown& report = state.ui.report;
+    if (report.page.empty() || report.session != session) return;
+    const auto name = report.page.parent_path().filename() / report.page.filename();
+    const float width = ImGui::GetContentRegionAvail().x * (1.0F - kLabelShare);
+    fact_row("Report", on_two_lines(name.string(), width), report.page.c_str());
 }
 
 bool button_or_drop(const char* label, bool enabled, const char* dropped, float beside) {
@@ -364,6 +406,20 @@ void place_next_tooltip() {
     }
 }
 
+void draw_tooltip(const std::string& text) {
+    const float wrap = ImGui::GetFontSize() * kTooltip_em;
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+    const ImVec2 pad = ImGui::GetStyle().WindowPadding;
+    place_next_tooltip();
+    // Else its first picture would have the size of the tooltip before it.
+    ImGui::SetNextWindowSize({size.x + 2.0F * pad.x, size.y + 2.0F * pad.y});
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(pad.x + wrap);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
 void add_tooltip(const std::string& text, const KeyTable& keys, Action action) {
     add_tooltip((text + keys.in_brackets(action)).c_str());
 }
@@ -372,12 +428,7 @@ void add_tooltip(const char* text) {
     const bool wanted = item::keyboard_is_on() ? item::has_keyboard() : ImGui::IsItemHovered();
     if (*text == '\0' || !wanted) return;
     if (item::keyboard_is_on()) KeyboardFocus::current()->explain(text);
-    place_next_tooltip();
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(ImGui::GetFontSize() * kTooltip_em);
-    ImGui::TextUnformatted(text);
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
+    draw_tooltip(text);
 }
 
 bool name_button(const std::string& name) {
