@@ -72,7 +72,6 @@ void draw_replay_panel(ViewerState& state, Transport& replay) {
     ImGui::SameLine();
     report_button(state, info.file);
     draw_clip_button(state);
-    report_row(state, info.file);
     if (!info.playback.failure.empty()) draw_warning(capitalised(info.playback.failure));
     speed_row(info.playback.speed, replay);
     draw_moment(state);

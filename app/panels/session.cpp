@@ -110,7 +110,6 @@ void draw_session_panel(ViewerState& state) {
         }
         ImGui::SameLine();
         report_button(state, touch.recorded_file);
-        report_row(state, touch.recorded_file);
     }
     draw_about(state.touch.session_fields);
     if (touch.recording) draw_marks(state);

@@ -334,20 +334,17 @@ float half_width() {
 }
 
 void report_button(ViewerState& state, const std::filesystem::path& session) {
-    const bool makes = state.ui.report.being_made;
+    const ReportShown& report = state.ui.report;
+    const bool makes = report.being_made;
     ImGui::BeginDisabled(makes);
     if (item::button(makes ? "Making it###report" : "Report###report", {-1.0F, 0.0F}))
         state.commands.push(MakeReport{session});
     ImGui::EndDisabled();
-    add_tooltip("One page: where, how long and how hard it was touched (dibhr report)");
-}
-
-void report_row(const ViewerState& state, const std::filesystem::path& session) {
-    const ReportShown& report = state.ui.report;
-    if (report.page.empty() || report.session != session) return;
-    const auto name = report.page.parent_path().filename() / report.page.filename();
-    const float width = ImGui::GetContentRegionAvail().x * (1.0F - kLabelShare);
-    fact_row("Report", on_two_lines(name.string(), width), report.page.c_str());
+    const std::string made = report.session == session && !report.page.empty()
+                                 ? "\nMade: " + report.page.string()
+                                 : std::string();
+    add_tooltip(
+        ("One page: where, how long and how hard it was touched (dibhr report)" + made).c_str());
 }
 
 bool button_or_drop(const char* label, bool enabled, const char* dropped, float beside) {
@@ -390,7 +387,7 @@ void place_next_tooltip() {
     const float widest =
         kTooltip_em * ImGui::GetFontSize() + 2.0F * ImGui::GetStyle().WindowPadding.x;
     const float right = window.x + ImGui::GetWindowWidth() + gap;
-    // Shifted by its place on the display, so that the tooltip stays inside.
+    // Shifted by its place on the display, or above a window in that, so that it stays inside.
     if (right < 0.25F * display.x) {  // of a narrow window at the left
         const float y = ImGui::GetItemRectMin().y;
         ImGui::SetNextWindowPos({right, y}, ImGuiCond_Always,
@@ -401,8 +398,9 @@ void place_next_tooltip() {
                                 {1.0F, std::clamp(y / display.y, 0.0F, 1.0F)});
     } else {
         const float x = ImGui::GetIO().MousePos.x;
+        const float share = (x - window.x) / std::max(1.0F, ImGui::GetWindowWidth());
         ImGui::SetNextWindowPos({x, window.y - gap}, ImGuiCond_Always,
-                                {std::clamp(x / display.x, 0.0F, 1.0F), 1.0F});
+                                {std::clamp(share, 0.0F, 1.0F), 1.0F});
     }
 }
 

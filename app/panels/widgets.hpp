@@ -103,10 +103,9 @@ bool text_row(const char* label, const std::string& hint, std::span<char> text, 
 /// The width of each of two buttons side by side [px].
 [[nodiscard]] float half_width();
 
-/// A button that makes the report of a session, as wide as there is room.
+/// A button that makes the report of a session, as wide as there is room; its tooltip says where
+/// the page is, once it was made.
 void report_button(ViewerState& state, const std::filesystem::path& session);
-/// Where the page of its report is, once it was made.
-void report_row(const ViewerState& state, const std::filesystem::path& session);
 
 /// A button for a typed file and, if there is room, a text that the file can be dropped instead.
 /// `beside`: space left free [px]. True if the button was pressed.

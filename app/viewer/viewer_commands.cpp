@@ -204,7 +204,7 @@ void Viewer::take_report() {
     attempt([&] {
         const auto page = reporting_.take();
         if (!page) return;
-        constexpr double kReadPath_s = 12.0;
+        constexpr double kReadPath_s = 20.0;
         show_notice("Report: " + page->string(), kReadPath_s);
         report.page = *page;
         show_in_browser(*page);
