@@ -15,8 +15,9 @@ namespace {
 
 constexpr float kWidestRelief_em = 22.0F;
 constexpr float kNarrowestRelief_em = 12.0F;
-constexpr float kReliefShape = 0.75F;    // height over width
-constexpr float kShareOfWindow = 0.94F;  // of its width and height
+constexpr float kReliefShape = 0.75F;           // height over width
+constexpr float kShareOfWindow = 0.94F;         // of the relief's part of it
+constexpr float kLeastBesidePanels_em = 30.0F;  // else it lies over them, too
 
 bool has_distances(const DepthAlternative& alternative) {
     return is_distance(alternative.statement.unit.value_or(DepthUnit::levels));
@@ -100,16 +101,15 @@ struct CellGrid {
     float width{0.0F};  ///< of the card's inside
 };
 
-CellGrid grid_for(int cells, int lines_of_label) {
+CellGrid grid_for(int cells, int lines_of_label, ImVec2 room) {
     const ImGuiStyle& style = ImGui::GetStyle();
     const float em = ImGui::GetFontSize();
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float label = static_cast<float>(lines_of_label) * ImGui::GetTextLineHeight() +
                         4.0F * style.FramePadding.y;
     const float gap = style.ItemSpacing.x;
-    const float room_x = kShareOfWindow * display.x - 2.0F * style.WindowPadding.x;
+    const float room_x = kShareOfWindow * room.x - 2.0F * style.WindowPadding.x;
     // Besides the cells: title, two lines of text, the buttons.
-    const float room_y = kShareOfWindow * display.y - 2.0F * style.WindowPadding.y -
+    const float room_y = kShareOfWindow * room.y - 2.0F * style.WindowPadding.y -
                          7.0F * ImGui::GetTextLineHeightWithSpacing();
     const auto relief_width = [&](int columns) {
         const int rows = (cells + columns - 1) / columns;
@@ -231,10 +231,12 @@ void draw_depth_question(ViewerState& state) {
     std::vector<std::string> labels = labels_of(question.alternatives);
     int lines = 1;
     for (std::string& label : labels) lines = std::max(lines, break_label(label));
-    const CellGrid grid = grid_for(static_cast<int>(labels.size()), lines);
     const ImGuiStyle& style = ImGui::GetStyle();
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({0.5F * display.x, 0.5F * display.y}, ImGuiCond_Always, {0.5F, 0.5F});
+    ImVec2 room = ImGui::GetIO().DisplaySize;
+    const float beside = room.x - panel_column_width(state);
+    if (beside > kLeastBesidePanels_em * ImGui::GetFontSize()) room.x = beside;
+    const CellGrid grid = grid_for(static_cast<int>(labels.size()), lines, room);
+    ImGui::SetNextWindowPos({0.5F * room.x, 0.5F * room.y}, ImGuiCond_Always, {0.5F, 0.5F});
     ImGui::SetNextWindowSize({grid.width + 2.0F * style.WindowPadding.x, 0.0F});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, std::max(1.0F, state.ui.scale));
     ImGui::Begin("Which is right?", nullptr, kTitledWindow);

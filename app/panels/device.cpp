@@ -23,13 +23,9 @@ std::string point_text(const Vec3& p) {
 std::string state_text(const ViewerState& state) {
     const HapticState& haptic = state.touch.haptic;
     if (!haptic.touchable) return "waiting for a surface";
-    if (waits_for_front(state.settings, state.touch)) return "not in front: no force";
-    if (clutched(state.settings, state.touch)) return "held by the clutch: no force";
-    if (!haptic.hand.ready) {
-        return a_device_touches(state.touch)
-                   ? force_device_kinds()[touching_device(state.touch)->kind]->no_pose_advice
-                   : "not ready: no force";
-    }
+    if (!haptic.hand.ready && a_device_touches(state.touch))
+        return force_device_kinds()[touching_device(state.touch)->kind]->no_pose_advice;
+    if (const std::string reason = why_held(state); !reason.empty()) return "no force: " + reason;
     return haptic.touch.proxy.contact ? "in contact" : "free";
 }
 
@@ -43,21 +39,40 @@ struct ForceSwitch {
 ForceSwitch force_switch(const ViewerState& state) {
     const std::string key = state.keys.in_brackets(Action::toggle_force);
     if (!state.touch.force_enabled) {
-        return {"Force is OFF###force", ImVec4{0.46F, 0.22F, 0.16F, 1.0F},
+        return {"Force: off###force", ImVec4{0.46F, 0.22F, 0.16F, 1.0F},
                 "Switch the force on again; it rises slowly" + key};
     }
-    if (waits_for_front(state.settings, state.touch)) {
-        return {"Force waits###force", ImVec4{0.44F, 0.35F, 0.12F, 1.0F},
-                "The force rises again when this window is in front. Click to switch it off" + key};
+    if (const std::string reason = why_held(state); !reason.empty()) {
+        return {"Force: held###force", ImVec4{0.44F, 0.35F, 0.12F, 1.0F},
+                "On, but no force is sent: " + reason + "\nClick to switch it off" + key};
     }
     // A mouse has no motors, of which people should be warned.
     if (!may_touch(state.touch)) {
-        return {"Force on###force", {}, "Switch the force that the arrow shows off" + key};
+        return {"Force: on###force", {}, "Switch the force that the arrow shows off" + key};
     }
-    return {"Force is ON###force", ImVec4{0.14F, 0.38F, 0.33F, 1.0F}, "Switch the force off" + key};
+    return {"Force: on###force", ImVec4{0.14F, 0.38F, 0.33F, 1.0F}, "Switch the force off" + key};
 }
 
 }  // namespace
+
+std::string why_held(const ViewerState& state) {
+    const TouchState& touch = state.touch;
+    if (touch.replay) return {};
+    const auto& question = state.ui.depth_question;
+    if (question && question->answered) return "reading the files again";
+    if (touch.depth_in_question) return "which depth is right?";
+    if (waits_for_front(state.settings, touch)) return "this window is not in front";
+    if (clutched(state.settings, touch)) return "the clutch is held";
+    const auto& live = state.media.playback.live;
+    if (live && live->force_off) return "no signal";
+    const SafetyCut cut = touch.haptic.touch.cut;
+    const bool lasts = cut == SafetyCut::device_not_ready || cut == SafetyCut::standstill;
+    return lasts ? name_of(cut) : "";
+}
+
+float force_switch_width() {
+    return button_width("Force: held");  // the widest of its texts
+}
 
 void draw_force_switch(ViewerState& state, float width) {
     const ForceSwitch shown = force_switch(state);

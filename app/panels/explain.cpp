@@ -184,10 +184,15 @@ void draw_path(const ReliefOverlay& overlay, const ExplainedInfo& info) {
     }
 }
 
+/// Whether the hand is in the air: no primitive of the surface takes part.
+bool is_free(const ExplainedUpdate& update) {
+    return update.result.moves == 0 && !update.start.contact && !update.result.contact;
+}
+
 void draw_on_relief(const ReliefOverlay& overlay, const DepthSurface& surface,
                     const ExplainedInfo& info) {
     const ExplainedUpdate& update = info.update;
-    draw_net(overlay, surface, update);
+    if (!is_free(update)) draw_net(overlay, surface, update);
     for (std::size_t k = 0; k < info.taken; ++k) {
         const WalkStep& step = update.steps[k];
         for (std::size_t n = 0; n < step.visits; ++n) {
@@ -219,6 +224,10 @@ void draw_on_relief(const ReliefOverlay& overlay, const DepthSurface& surface,
 /// The card's text: on the current step, or how to begin.
 std::string card_text(const ViewerState& state) {
     const ExplainedInfo& info = *state.ui.explained;
+    if (is_free(info.update))
+        return std::string("The goal is above the surface: no contact, no force. ") +
+               (state.touch.replay ? "Step on to the next update, or seek to a contact first."
+                                   : "Hold the left button on the relief to explain a touch.");
     if (info.taken > 0) return text_of(info.update.steps[info.taken - 1]);
     const KeyTable& keys = state.keys;
     const std::string on = keys.name_for(Action::step_forward);
@@ -236,6 +245,7 @@ std::string card_text(const ViewerState& state) {
 std::string title_of(const ExplainedInfo& info, float room) {
     const std::size_t steps = info.update.steps.size();
     const std::string what = "Explain one update of DIBHR";
+    if (is_free(info.update)) return what + ": it visits nothing";
     if (steps == 0) return what + ": the proxy rests where it is";
     std::string step = formatted("step %zu of %zu", info.taken, steps);
     const int moves = info.taken > 0 ? info.update.steps[info.taken - 1].after.moves : 0;

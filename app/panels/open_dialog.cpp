@@ -28,7 +28,9 @@ constexpr float kPreview_em = 17.0F;
 constexpr float kPlaces_em = 10.0F;
 
 std::string size_text(const FolderEntry& entry) {
-    if (entry.kind == FileKind::folder) return entry.recording ? "Recording" : "";
+    if (entry.kind == FileKind::folder) {
+        return !entry.recording ? "" : entry.folders > 0 ? "Recording +" : "Recording";
+    }
     constexpr double kStep = 1000.0;
     constexpr const char* kUnits[] = {"B", "kB", "MB", "GB", "TB"};
     auto size = static_cast<double>(entry.bytes);
@@ -239,7 +241,7 @@ void draw_rows(ViewerState& state, ImVec2 size) {
     // With a fixed weight: the names' own width would leave no room for the other columns.
     ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch, 1.0F);
     if (wide) {
-        ImGui::TableSetupColumn("Size", ImGuiTableColumnFlags_WidthFixed, 4.6F * em);
+        ImGui::TableSetupColumn("Size", ImGuiTableColumnFlags_WidthFixed, 5.8F * em);
         ImGui::TableSetupColumn("Changed", ImGuiTableColumnFlags_WidthFixed, 9.0F * em);
     }
     ImGui::TableSetupScrollFreeze(0, 1);
@@ -289,7 +291,10 @@ void draw_picture(std::uintptr_t texture, int columns, int rows, float highest) 
     ImGui::Image(texture_id<ImTextureID>(texture), {width, width / aspect});
 }
 
-const char* words_for(const FolderEntry& entry) {
+std::string words_for(const FolderEntry& entry) {
+    if (entry.recording && entry.folders > 0)
+        return "A folder that is a recording, and holds " + std::to_string(entry.folders) +
+               (entry.folders > 1 ? " folders" : " folder") + " more: look inside";
     if (entry.recording) return "A folder that is a recording";
     return entry.depth.empty() ? name_of(entry.kind) : "Colour and depth";
 }
@@ -318,7 +323,7 @@ void draw_preview(const ViewerState& state, const FolderEntry* chosen, ImVec2 si
 void draw_buttons(ViewerState& state, const FolderEntry* chosen) {
     OpenDialog& dialog = state.ui.dialog;
     item::checkbox("All files", &dialog.all_files);
-    constexpr float kAllInARow_em = 36.0F;  // if narrower, the box is only in Video, Recent
+    constexpr float kAllInARow_em = 46.0F;  // if narrower, the box is only in Video, Recent
     if (ImGui::GetContentRegionAvail().x > kAllInARow_em * ImGui::GetFontSize()) {
         ImGui::SameLine();
         desktop_dialog_box(state.settings.open_with);

@@ -101,12 +101,10 @@ constexpr const char* kFree = "Free";
 std::string touch_text(const ViewerState& state) {
     const HapticState& haptic = state.touch.haptic;
     if (!state.touch.replay && !state.touch.force_enabled) return "Force off";
-    if (state.touch.depth_in_question) return "Force off: which depth is right?";
-    if (waits_for_front(state.settings, state.touch)) return "Force off: not in front";
-    if (!haptic.touchable) return state.touch.replay ? "Nothing to touch" : "Nothing to touch yet";
-    if (clutched(state.settings, state.touch)) return "Held by the clutch";
-    if (state.media.playback.live && state.media.playback.live->force_off && !state.touch.replay)
-        return "No force: no signal";
+    if (const std::string reason = why_held(state); !reason.empty()) return "Force held: " + reason;
+    if (!haptic.touchable && state.touch.replay)
+        return state.touch.replay->tick.surface ? "Reading the recording" : "Nothing to touch";
+    if (!haptic.touchable) return "Nothing to touch yet";
     if (haptic.touch.cut != SafetyCut::none)
         return std::string("No force: ") + name_of(haptic.touch.cut);
     if (!haptic.touch.proxy.contact) return kFree;

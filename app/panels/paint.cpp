@@ -154,6 +154,8 @@ void draw_paint_panel(ViewerState& state) {
                    strength))
         brush.strength = std::clamp(strength / 100.0, 0.0, 1.0);
     draw_undo_buttons(state);
+    if (brush.has_paint && !brush.on)
+        draw_dimmed("What is painted is felt now; its colour is seen while the brush is on.");
     if (brush.saved_as.empty()) {
         draw_dimmed(
             "Paint on the sample is not kept: it is gone when another recording is opened.");

@@ -152,7 +152,11 @@ void draw_message_box(ViewerState& state);
 /// The strip chart of the force, as wide as there is room.
 void draw_strip_charts(ViewerState& state);
 
+/// Why no force is sent although it is switched on, as a clause; empty: nothing holds it back.
+[[nodiscard]] std::string why_held(const ViewerState& state);
 /// The switch of the force, a large button of the given width.
 void draw_force_switch(ViewerState& state, float width);
+/// So wide that its text fits in every state.
+[[nodiscard]] float force_switch_width();
 
 }  // namespace dibhr

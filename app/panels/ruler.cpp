@@ -38,7 +38,7 @@ std::string ruler_text(const ViewerState& state) {
     const double apart_px = glm::distance(end_place(ends[0]), end_place(ends[1]));
     const double pitch_mm = state.settings.touch.coupling.pixel_pitch_mm;
     const std::string depth = depth_between(state, ends[0], ends[1]);
-    return formatted("Ruler   %.1f px, %.2f mm", apart_px, apart_px * pitch_mm) +
+    return formatted("Ruler   %.1f px, %.2f mm under the hand", apart_px, apart_px * pitch_mm) +
            (depth.empty() ? "" : "   " + depth);
 }
 

@@ -45,7 +45,7 @@ void draw_progress(const RecordingInfo& recording) {
     const double per_minute = status.bytes_per_minute / kBytesPerMegabyte;
     fact_row("Size", formatted("%.1f MB", static_cast<double>(status.bytes) / kBytesPerMegabyte) +
                          (per_minute > 0.0 ? formatted(", %.1f MB a minute", per_minute) : ""));
-    fact_row("Lost", status.dropped == 0 ? "no tick" : std::to_string(status.dropped) + " ticks");
+    fact_row("Lost", status.dropped == 0 ? "nothing" : std::to_string(status.dropped) + " ticks");
 }
 
 void draw_about(SessionFields& fields) {

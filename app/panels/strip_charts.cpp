@@ -103,8 +103,8 @@ void draw_values(ImDrawList& list, const StripHistory& strips, Strip strip,
     }
 }
 
-/// Three numbers at the left of the frame.
-void draw_values_axis(ImDrawList& list, const ChartFrame& frame, float scale) {
+/// Three numbers at the left of the frame; the lowest one above its end, or `below`, beside it.
+void draw_values_axis(ImDrawList& list, const ChartFrame& frame, float scale, bool below) {
     const float text = ImGui::GetTextLineHeight();
     const ImU32 quiet = ImGui::GetColorU32(ImGuiCol_TextDisabled);
     const float middle = 0.5F * (frame.range.low + frame.range.high);
@@ -114,7 +114,7 @@ void draw_values_axis(ImDrawList& list, const ChartFrame& frame, float scale) {
         const std::string label = formatted("%g", static_cast<double>(value));
         const float width = ImGui::CalcTextSize(label.c_str()).x;
         const float y = std::clamp(frame.y_of(value) - 0.5F * text, frame.low.y - 0.5F * text,
-                                   frame.high.y - text);
+                                   frame.high.y - (below ? 0.5F : 1.0F) * text);
         list.AddText({frame.low.x - width - 4.0F * scale, y}, quiet, label.c_str());
     }
 }
@@ -158,7 +158,7 @@ void draw_chart(const StripKind& kind, const StripHistory& strips, float scale, 
                            range_of(strips, kind)};
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_FrameBg), 3.0F * scale);
-    draw_values_axis(list, frame, scale);
+    draw_values_axis(list, frame, scale, last);
     draw_time_axis(list, frame, last ? std::optional(high.y - 1.05F * line) : std::nullopt);
     draw_values(list, strips, kind.strip, frame);
     if (age) {

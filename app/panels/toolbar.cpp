@@ -26,6 +26,7 @@ struct Tool {
     Action action;
     std::string help{};
     bool lit{false};
+    bool enabled{true};
 };
 
 /// What each does now: the first picture of two, and whether it is on.
@@ -34,7 +35,8 @@ std::array<Tool, kTools> tools_of(const ViewerState& state) {
     const bool records = state.touch.recording.has_value();
     return {
         {{Icon::open, Action::open_file, "Open a recording"},
-         {plays ? Icon::pause : Icon::play, Action::play_or_pause, plays ? "Pause" : "Play"},
+         {plays ? Icon::pause : Icon::play, Action::play_or_pause, plays ? "Pause" : "Play", false,
+          state.touch.replay || !state.media.still},
          {Icon::record, Action::record, records ? "End the recording" : "Record what is touched",
           records},
          {Icon::explain, Action::explain, "Explain how the force is found, step by step",
@@ -69,16 +71,19 @@ void draw_toolbar(ViewerState& state) {
     ImGui::SetNextWindowSize({place->right - place->left, place->bottom - place->top});
     ImGui::SetNextWindowBgAlpha(0.85F);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, pad});
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {pad, pad});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 2.0F * ImGui::GetStyle().FrameRounding);
     ImGui::Begin("Tools", nullptr, kBareWindow | kBehindOthers);
-    ImGui::PopStyleVar(3);
+    ImGui::PopStyleVar(2);
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {pad, pad});
     for (const Tool& tool : tools_of(state)) {
         const std::string help = tool.help + state.keys.in_brackets(tool.action);
         const std::string id(job_of(tool.action).name);
+        ImGui::BeginDisabled(!tool.enabled);
         if (icon_button(id.c_str(), tool.icon, help.c_str(), tool.lit, kSide))
             state.commands.push(tool.action);
+        ImGui::EndDisabled();
     }
+    ImGui::PopStyleVar();
     ImGui::End();
 }
 

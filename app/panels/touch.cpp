@@ -179,8 +179,7 @@ void draw_speech(ViewerState& state) {
 }
 
 std::string pads_text(const PadInfo& pads, bool coils_move) {
-    if (pads.state == PadInfo::State::no_session)
-        return "not looked for: no desktop session has been started";
+    if (pads.state == PadInfo::State::no_session) return "needs a desktop session";
     if (pads.found.empty()) return "none found";
     std::string text;
     for (const FoundPad& pad : pads.found) {

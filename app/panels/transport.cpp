@@ -111,8 +111,7 @@ std::optional<double> draw_time_line(const TimeLineContents& line, float width) 
     draw_line(list, track, track.x_of(held ? under_s : line.now_s), hovered || held);
     if (hovered || held) {
         const std::string tag = mark != nullptr ? "   " + mark->tag : "";
-        place_next_tooltip();
-        ImGui::SetTooltip("%s%s", clock_text(under_s).c_str(), tag.c_str());
+        draw_tooltip(clock_text(under_s) + tag);
     }
     const bool moved = ImGui::IsItemActivated() || ImGui::GetIO().MouseDelta.x != 0.0F;
     if (held && moved) return under_s;
@@ -221,10 +220,6 @@ void draw_playback(const ViewerState& state, Transport& player, float right_of_l
                                              "frame " + std::to_string(playback.frame + 1),
                                              ImGui::CalcTextSize("frame 00000").x, right_of_line);
     if (wanted_s) player.seek(*wanted_s);
-}
-
-float force_switch_width() {
-    return button_width("Force is OFF");
 }
 
 void draw_transport_bar(ViewerState& state, Transport& player) {

@@ -173,6 +173,26 @@ void draw_prepared(ViewerState& state) {
     }
 }
 
+/// What the cleaning that runs mends: "Auto: mends holes, spikes, silhouettes".
+std::string mended_text(const ViewerState& state, bool by_sidecar) {
+    const CleaningSteps& steps = state.media.playback.steps;
+    std::string mended;
+    const auto add = [&mended](bool is, const char* what) {
+        if (is) mended += (mended.empty() ? "" : ", ") + std::string(what);
+    };
+    add(steps.densify, "sparse depth");
+    add(steps.fill_holes, "holes");
+    add(steps.remove_spikes, "spikes");
+    add(steps.sharpen_silhouettes || steps.colour_edges, "silhouettes");
+    add(steps.smooth_outlines, "outlines");
+    add(steps.smooth_steps, "depth steps");
+    add(steps.steady || steps.smooth_noise, "noise");
+    const std::string& words = state.media.playback.cleaning;  // they begin with the preset's name
+    const std::string preset = words.substr(0, words.find_first_of(":,"));
+    return (by_sidecar ? "By the sidecar: " + preset : capitalised(preset)) +
+           (mended.empty() ? "" : ": mends " + mended);
+}
+
 /// If a person switches a step, the preset becomes `own`, with the other steps as they are now.
 void draw_cleaning(ViewerState& state) {
     CleaningOptions& cleaning = state.settings.cleaning;
@@ -185,10 +205,11 @@ void draw_cleaning(ViewerState& state) {
                CleaningPreset::automatic);
     const bool by_sidecar = cleaning_on(state.media, cleaning).preset != cleaning.preset;
     if (!state.touch.replay && !state.media.playback.cleaning.empty()) {
-        draw_dimmed((by_sidecar ? "By the sidecar: " + state.media.playback.cleaning
-                                : capitalised(state.media.playback.cleaning)));
-        add_tooltip(
-            "Which steps run, and the noise that was measured in the depth, from near to far");
+        draw_dimmed(mended_text(state, by_sidecar));
+        add_tooltip((capitalised(state.media.playback.cleaning) +
+                     "\nWith the noise that was measured in the depth, from near to far, and the "
+                     "force that a slide trembles by, as it is and without cleaning")
+                        .c_str());
     }
     const double said_mm = finger_mm_on(state.media, 0.0);
     const std::string unless_chosen =

@@ -116,6 +116,13 @@ struct ClipInfo {
     bool finishing{false};  ///< ended; its file is not complete yet
 };
 
+/// The report of a session.
+struct ReportShown {
+    std::filesystem::path session{};
+    bool being_made{false};
+    std::filesystem::path page{};  ///< empty: not made yet
+};
+
 /// The panes: pictures above the relief.
 struct PanesShown {
     std::uintptr_t colour{0};  ///< names of OpenGL textures; 0: none
@@ -249,6 +256,7 @@ struct UiState {
     Brush brush{};
     std::optional<ExplainedInfo> explained{};
     bool statistics{false};                         ///< shown over the relief
+    ReportShown report{};                           ///< the last one of this window
     std::optional<ClipInfo> clip{};                 ///< nothing: no clip is made
     std::optional<double> preparing{};              ///< the share that is done; nothing: none is
     std::optional<DepthOffer> depth_offer{};        ///< nothing: no video lacks depth

@@ -21,7 +21,6 @@ namespace dibhr {
 namespace {
 
 constexpr float kLabelShare = 0.40F;  // of a row's width
-constexpr float kTooltip_em = 22.0F;  // widest text
 constexpr const char* kSlideByMouse = "Drag, or Ctrl+click to type a number";
 constexpr const char* kSlideKeys = "\nLeft and right change it, Enter types a number";
 
@@ -179,6 +178,32 @@ bool section(const ViewerState& state, const char* title, bool& open, bool* want
     return open;
 }
 
+namespace {
+
+/// Where a slider stands, along the last item's lower edge: the number above it stays readable.
+void draw_slider_mark(const NumberRow& row, double value) {
+    const double share = row.logarithmic
+                             ? std::log(value / row.lowest) / std::log(row.highest / row.lowest)
+                             : (value - row.lowest) / (row.highest - row.lowest);
+    if (!std::isfinite(share)) return;
+    const ImVec2 low = ImGui::GetItemRectMin();
+    const ImVec2 high = ImGui::GetItemRectMax();
+    const bool lively = ImGui::IsItemHovered() || ImGui::IsItemActive();
+    const ImU32 colour = ImGui::GetColorU32(ImGuiCol_SliderGrabActive);
+    const float line = 0.11F * (high.y - low.y);
+    const float knob = 0.5F * ImGui::GetStyle().GrabMinSize;
+    const float x =
+        low.x + knob +
+        static_cast<float>(std::clamp(share, 0.0, 1.0)) * (high.x - low.x - 2.0F * knob);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled({low.x, high.y - line}, {x, high.y}, ImGui::GetColorU32(ImGuiCol_SliderGrab),
+                       line, ImDrawFlags_RoundCornersBottomLeft);
+    list.AddRectFilled({x - knob, high.y - (lively ? 2.4F : 1.9F) * line}, {x + knob, high.y},
+                       colour, line);
+}
+
+}  // namespace
+
 bool number_row(const NumberRow& row, double& value) {
     const double before = value;
     const bool named = row.zero != nullptr && !(std::abs(value) > 0.0);
@@ -186,10 +211,14 @@ bool number_row(const NumberRow& row, double& value) {
     row_label(row.label, row.help);
     ImGui::SetNextItemWidth(value_width() - row.beside);
     const char* const format = named ? row.zero : row.format;
+    ImGui::PushStyleColor(ImGuiCol_SliderGrab, 0);  // ImGui's lies under the number
+    ImGui::PushStyleColor(ImGuiCol_SliderGrabActive, 0);
     number_item("##value", row.format, value, [&] {
         ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &row.lowest, &row.highest,
                             format, row.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
     });
+    ImGui::PopStyleColor(2);
+    draw_slider_mark(row, value);
     // ImGui rounds a dragged value to the shown digits, but a text instead of 0 has none.
     if (named && ImGui::IsMouseDown(ImGuiMouseButton_Left)) value = std::round(value);
     const bool by_keys =
@@ -255,7 +284,7 @@ void text_beside_flag(const std::string& text) {
 
 void desktop_dialog_box(OpenWith& with) {
     bool asks = with != OpenWith::window;
-    if (item::checkbox("The desktop's dialog", &asks))
+    if (item::checkbox("Use the desktop's dialog next time", &asks))
         with = asks ? OpenWith::automatic : OpenWith::window;
     add_tooltip("Files are chosen in the desktop's own dialog, where there is one (--open-dialog)");
 }
@@ -304,8 +333,17 @@ float half_width() {
 }
 
 void report_button(ViewerState& state, const std::filesystem::path& session) {
-    if (item::button("Report", {-1.0F, 0.0F})) state.commands.push(MakeReport{session});
-    add_tooltip("One page: where, how long and how hard it was touched (dibhr report)");
+    const ReportShown& report = state.ui.report;
+    const bool makes = report.being_made;
+    ImGui::BeginDisabled(makes);
+    if (item::button(makes ? "Making it###report" : "Report###report", {-1.0F, 0.0F}))
+        state.commands.push(MakeReport{session});
+    ImGui::EndDisabled();
+    const std::string made = report.session == session && !report.page.empty()
+                                 ? "\nMade: " + report.page.string()
+                                 : std::string();
+    add_tooltip(
+        ("One page: where, how long and how hard it was touched (dibhr report)" + made).c_str());
 }
 
 bool button_or_drop(const char* label, bool enabled, const char* dropped, float beside) {
@@ -339,45 +377,6 @@ void file_row(const char* label, const std::filesystem::path& file) {
     const std::string name = is_live(file) ? whole : file.filename().string();
     const float width = ImGui::GetContentRegionAvail().x * (1.0F - kLabelShare);
     fact_row(label, on_two_lines(name, width), whole.c_str());
-}
-
-void place_next_tooltip() {
-    const ImVec2 window = ImGui::GetWindowPos();
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const float gap = ImGui::GetStyle().ItemSpacing.x;
-    const float widest =
-        kTooltip_em * ImGui::GetFontSize() + 2.0F * ImGui::GetStyle().WindowPadding.x;
-    const float right = window.x + ImGui::GetWindowWidth() + gap;
-    // Shifted by its place on the display, so that the tooltip stays inside.
-    if (right < 0.25F * display.x) {  // of a narrow window at the left
-        const float y = ImGui::GetItemRectMin().y;
-        ImGui::SetNextWindowPos({right, y}, ImGuiCond_Always,
-                                {0.0F, std::clamp(y / display.y, 0.0F, 1.0F)});
-    } else if (window.x > widest + gap) {
-        const float y = ImGui::GetItemRectMin().y;
-        ImGui::SetNextWindowPos({window.x - gap, y}, ImGuiCond_Always,
-                                {1.0F, std::clamp(y / display.y, 0.0F, 1.0F)});
-    } else {
-        const float x = ImGui::GetIO().MousePos.x;
-        ImGui::SetNextWindowPos({x, window.y - gap}, ImGuiCond_Always,
-                                {std::clamp(x / display.x, 0.0F, 1.0F), 1.0F});
-    }
-}
-
-void add_tooltip(const std::string& text, const KeyTable& keys, Action action) {
-    add_tooltip((text + keys.in_brackets(action)).c_str());
-}
-
-void add_tooltip(const char* text) {
-    const bool wanted = item::keyboard_is_on() ? item::has_keyboard() : ImGui::IsItemHovered();
-    if (*text == '\0' || !wanted) return;
-    if (item::keyboard_is_on()) KeyboardFocus::current()->explain(text);
-    place_next_tooltip();
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(ImGui::GetFontSize() * kTooltip_em);
-    ImGui::TextUnformatted(text);
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
 }
 
 bool name_button(const std::string& name) {

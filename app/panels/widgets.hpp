@@ -103,7 +103,8 @@ bool text_row(const char* label, const std::string& hint, std::span<char> text, 
 /// The width of each of two buttons side by side [px].
 [[nodiscard]] float half_width();
 
-/// A button that makes the report of a session, as wide as there is room.
+/// A button that makes the report of a session, as wide as there is room; its tooltip says where
+/// the page is, once it was made.
 void report_button(ViewerState& state, const std::filesystem::path& session);
 
 /// A button for a typed file and, if there is room, a text that the file can be dropped instead.
@@ -126,6 +127,8 @@ void file_row(const char* label, const std::filesystem::path& file);
 /// Places the next tooltip beside or above the last item's window, so that it covers no control.
 void place_next_tooltip();
 
+/// Draws a tooltip there, with the size of its text.
+void draw_tooltip(const std::string& text);
 /// Adds a tooltip to the last item.
 void add_tooltip(const char* text);
 /// The same, with the key of the action.

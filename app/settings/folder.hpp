@@ -22,6 +22,7 @@ struct FolderEntry {
     std::uintmax_t bytes{0};        ///< both; 0 of a folder
     std::filesystem::file_time_type changed{};
     bool recording{false};  ///< a folder that opens as one
+    int folders{0};         ///< in such a folder, which may hold recordings, too
 
     /// "take_color.mp4 + take_depth.mp4"
     [[nodiscard]] std::string name() const;

@@ -185,7 +185,7 @@ MeasuredBody measured(const PageBody& body) {
     return whole;
 }
 
-/// Draws at the cursor. Each text is a centred column, its lines flush left.
+/// Draws at the cursor. Each text is a centred column.
 void draw_body(const PageBody& body, const MeasuredBody& whole, float width) {
     float top = ImGui::GetCursorPosY();
     const auto place = [&](ImVec2 size) {
@@ -201,7 +201,7 @@ void draw_body(const PageBody& body, const MeasuredBody& whole, float width) {
         if (text.text.empty()) continue;
         const TextBlock& block = whole.blocks[k++];
         place(block.size);
-        draw_text(block, ImGui::GetCursorScreenPos(), LineAlign::left, text.dimmed);
+        draw_text(block, ImGui::GetCursorScreenPos(), text.align, text.dimmed);
         ImGui::Dummy(block.size);
     }
 }

@@ -59,6 +59,7 @@ struct PageText {
     std::string text{};
     float times{1.0F};  ///< as large as the font
     bool dimmed{false};
+    LineAlign align{LineAlign::left};
 };
 
 struct PageBody {

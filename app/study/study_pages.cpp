@@ -33,8 +33,11 @@ PageBody body_of(const StudyShown& view, std::vector<PageText> texts, float top)
             .scroll = view.scroll};
 }
 
-Press draw_text_page(const StudyPage& page, const StudyShown& view, const char* button) {
-    PageBody body = body_of(view, {{page.text}}, page.picture.empty() ? 0.26F : 0.08F);
+/// `align`: a short text is centred over its button, instructions are flush left.
+Press draw_text_page(const StudyPage& page, const StudyShown& view, const char* button,
+                     LineAlign align = LineAlign::left) {
+    PageBody body =
+        body_of(view, {{.text = page.text, .align = align}}, page.picture.empty() ? 0.26F : 0.08F);
     if (!page.picture.empty()) {
         body.picture = view.picture;
         body.picture_columns = view.picture_columns;
@@ -112,8 +115,8 @@ Press draw_line(const Question& question, const StudyShown& view, ImVec2 at, flo
         press = StudyPress{Kind::mark, 0, std::round(lowest + std::clamp(share, 0.0, 1.0) * range)};
     }
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    const ImU32 ink =
-        ImGui::GetColorU32(ImGui::IsItemHovered() ? ImGuiCol_ButtonActive : ImGuiCol_ButtonHovered);
+    const bool lit = ImGui::IsItemHovered() && view.pointer_moved;
+    const ImU32 ink = ImGui::GetColorU32(lit ? ImGuiCol_ButtonActive : ImGuiCol_ButtonHovered);
     const auto bar = [&](float x, float width, float high) {
         list.AddRectFilled({x, middle - high}, {x + width, middle + high}, ink);
     };
@@ -194,15 +197,23 @@ Press draw_question(const StudyRun& run, const StudyShown& view) {
             add_line(block.question, view, foot);
         else
             add_numbers(block.question, view, foot);
-        if (!view.by_mouse)
-            foot.push_back(note_part("Buttons of the grip: 1 lower, 2 higher, 3 answer"));
+        foot.push_back(note_part(
+            view.by_mouse ? "Left and Right choose, Enter answers"
+                          : "Left and Right choose, Enter answers. Buttons of the grip: 1 lower, 2 "
+                            "higher, 3 answer"));
     } else {
         foot.push_back(button_part({.labels = choices_of(run)}, [](int which) {
             return StudyPress{Kind::choose, which};
         }));
     }
     if (block.again) foot.push_back(again_part(block));
-    return draw_page(body_of(view, {{block.question.text, 1.25F}}, 0.3F), foot);
+    // A resting pointer must not light an answer as if it were chosen.
+    const bool lights = view.pointer_moved || has_wide_scale(block.question);
+    const ImGuiCol lit = lights ? ImGuiCol_ButtonHovered : ImGuiCol_Button;
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImGui::GetStyleColorVec4(lit));
+    const Press press = draw_page(body_of(view, {{block.question.text, 1.25F}}, 0.3F), foot);
+    ImGui::PopStyleColor();
+    return press;
 }
 
 /// Of an adjustment's two intervals the first is the one to match; it is felt first, once.
@@ -273,7 +284,7 @@ Press draw_start(const StudyRun& run, const StudyShown& view) {
     const std::string text = run.answered().empty()
                                  ? "Begin whenever you like."
                                  : "It goes on where it stopped.\n\nBegin whenever you like.";
-    return draw_text_page({.text = text}, view, "Begin  (Enter)");
+    return draw_text_page({.text = text}, view, "Begin  (Enter)", LineAlign::middle);
 }
 
 bool is_felt(StudyStep step) {
@@ -295,7 +306,7 @@ Press draw_step(const StudyRun& run, const StudyShown& view) {
             return draw_feedback(run, view);
         case StudyStep::pause:
             return draw_text_page({.text = "Time for a break.\n\nGo on whenever you like."}, view,
-                                  "Go on  (Enter)");
+                                  "Go on  (Enter)", LineAlign::middle);
         case StudyStep::thanks:
             return draw_text_page(
                 run.page().empty() ? StudyPage{.text = "That was all. Thank you!"} : run.page(),

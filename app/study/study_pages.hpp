@@ -40,6 +40,7 @@ struct StudyShown {
     bool before_start{false};    ///< the program has started; the participant has not begun
     std::string consent_text{};  ///< protections that the study weakens; empty: none
     bool first_picture{false};   ///< the shown page is new
+    bool pointer_moved{true};    ///< since the question is on the screen
     float scroll{0.0F};          ///< lines to scroll down since the last picture
     double left_share{1.0};      ///< remaining share of a time limit; 1 without a limit
     bool has_limit{false};

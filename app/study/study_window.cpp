@@ -455,6 +455,9 @@ void StudyWindow::draw(const WindowInput& input) {
     beat();
     view_.device_words = device_banner(surface_.settings(), surface_.touch());
     view_.by_mouse = surface_.by_mouse();
+    if (view_.first_picture) pointer_before_px_ = pointer.position_px;
+    view_.pointer_moved = pointer.position_px != pointer_before_px_;
+    if (view_.pointer_moved) pointer_before_px_.reset();
     gui_.begin(input.keys);
     const auto press = draw_study(run_, view_);
     gui_.end();

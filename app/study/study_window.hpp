@@ -110,10 +110,11 @@ class StudyWindow {
     bool in_trial_{false};             // the trial's session has begun,
     std::filesystem::path session_{};  // in this file
     bool left_{false};
-    bool hand_seen_{false};                     // false: the mouse is beside the relief
-    double turned_{0.0};                        // current value of an adjustment
-    std::optional<Clock::time_point> since_{};  // begin of the time limit
-    Clock::time_point paused_at_{};             // when the question about leaving stopped that time
+    std::optional<glm::dvec2> pointer_before_px_{};  // on the page's first picture; nothing: moved
+    bool hand_seen_{false};                          // false: the mouse is beside the relief
+    double turned_{0.0};                             // current value of an adjustment
+    std::optional<Clock::time_point> since_{};       // begin of the time limit
+    Clock::time_point paused_at_{};  // when the question about leaving stopped that time
     std::optional<Clock::time_point> first_felt_at_{};  // begin of an adjustment's first interval
     LongPress long_press_{};
 };

@@ -173,6 +173,7 @@ std::string TouchRecording::stop(const std::string& reason) {
     }
     if (!recorder_) return {};
     finishing_file_ = state_.touch.recording->file;
+    finishing_s_ = state_.touch.recording->time_s;
     if (!reason.empty())
         print_warning(finishing_file_.string() + ": the recording ends here, as " + reason);
     if (live_) {
@@ -199,7 +200,7 @@ std::string TouchRecording::report_end(const RecorderStatus& recorded) {
     release_recorder();
     state_.touch.recording.reset();
     state_.touch.session_fields.note = {};  // the note was about this recording
-    return "Recorded " + std::to_string(recorded.rows) + " ticks into " +
+    return "Recorded " + number_text(finishing_s_, 1) + " s into " +
            state_.touch.recorded_file.string();
 }
 

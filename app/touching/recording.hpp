@@ -129,6 +129,7 @@ class TouchRecording {
     std::optional<Waiting> waiting_{};
     std::future<RecorderStatus> finishing_{};
     std::filesystem::path finishing_file_{};
+    double finishing_s_{0.0};  // its length
     /// The last two that were in use: a recording begins with the last one, or as ticks still have
     /// the one before.
     std::vector<VersionOfMaps> last_maps_{};

@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <numbers>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "app/settings/folder.hpp"
 #include "core/files/names.hpp"
@@ -31,6 +34,17 @@ std::string folder_of_files(const fs::path& depth) {
     std::error_code unknown;
     if (is_live(depth) || !fs::is_regular_file(depth, unknown)) return {};
     return shown(whole_path(depth).parent_path().filename());
+}
+
+/// The pixels without data; null: there is none.
+std::shared_ptr<const std::vector<std::uint8_t>> unseen_in(const DepthImage& depth) {
+    std::vector<std::uint8_t> unseen(depth.levels.size());
+    bool any = false;
+    for (std::size_t k = 0; k < unseen.size(); ++k) {
+        unseen[k] = std::isfinite(depth.levels[k]) ? 0 : 1;
+        any = any || unseen[k] != 0;
+    }
+    return any ? std::make_shared<const std::vector<std::uint8_t>>(std::move(unseen)) : nullptr;
 }
 
 /// As seen from the side and from above: it shows what is near, whatever is painted on it.
@@ -75,20 +89,81 @@ void take_digit(int digit, ViewerState& state) {
         state.commands.push(AnswerDepth{static_cast<std::size_t>(digit) - 1});
 }
 
+double spread_of(const Frame& frame) {
+    constexpr int kSamples = 64;  // a column, and a row
+    const DepthImage& drawn = *frame.drawn();
+    double sum = 0.0;
+    double squares = 0.0;
+    int count = 0;
+    for (int row = 0; row < kSamples; ++row) {
+        for (int column = 0; column < kSamples; ++column) {
+            const std::size_t pixel =
+                drawn.index(column * drawn.columns / kSamples, row * drawn.rows / kSamples);
+            const double nearness = drawn.levels[pixel] / drawn.highest_level;
+            if (!std::isfinite(nearness) || (frame.unseen && (*frame.unseen)[pixel] != 0)) continue;
+            sum += nearness;
+            squares += nearness * nearness;
+            ++count;
+        }
+    }
+    if (count == 0) return 0.0;
+    const double mean = sum / count;
+    return std::sqrt(std::max(0.0, squares / count - mean * mean));
+}
+
+std::optional<Frame> telling_frame(const MediaDescription& media, DepthRequest request) try {
+    constexpr int kFrames = 4;
+    if (media.still || media.live) return std::nullopt;
+    request.paints = false;
+    const auto opened = open_media(media.colour_path, media.depth_path, request);
+    std::optional<Frame> best;
+    double most = -1.0;
+    for (int k = 1; k <= kFrames; ++k) {
+        opened->seek_near(media.duration_s * k / (kFrames + 1));
+        auto read = opened->next();
+        if (!read) break;
+        Frame frame;
+        frame.unseen = unseen_in(read->depth);
+        frame.depth = std::make_shared<const DepthImage>(std::move(read->depth));
+        const double spread = spread_of(frame);
+        if (spread <= most) continue;
+        most = spread;
+        best = std::move(frame);
+    }
+    return best;
+} catch (const std::exception&) {  // the frames that are shown are enough
+    return std::nullopt;
+}
+
+void ViewerAsking::offer(const Frame& frame) {
+    constexpr double kClearly = 1.2;  // else the reliefs would change all the time
+    const double spread = spread_of(frame);
+    if (frame_ && spread < kClearly * spread_) return;
+    frame_ = frame;
+    spread_ = spread;
+    next_ = 0;
+}
+
 void ViewerAsking::draw_reliefs(const DepthBlend& shown, std::uint32_t media, ViewerState& state,
                                 SceneView& scene) {
     std::optional<DepthQuestion>& question = state.ui.depth_question;
-    const std::size_t next = question ? question->reliefs.size() : 0;
-    if (next == 0) frame_.reset();
-    if (!question || !state.media.meaning || next == question->alternatives.size()) return;
-    if (!frame_ && (!shown.makes_surface() || shown.nearest().media != media)) return;
-    if (!frame_) frame_ = shown.nearest();
+    if (!question || question->reliefs.empty()) frame_.reset();
+    if (!question || question->answered || !state.media.meaning) return;
+    const bool begins = !frame_;
+    if (shown.makes_surface() && shown.nearest().media == media) offer(shown.nearest());
+    if (!frame_) return;
+    if (begins) {
+        searching_.restart(
+            [media = static_cast<const MediaDescription&>(state.media),
+             request = state.media.opened.request] { return telling_frame(media, request); });
+    } else if (const auto found = searching_.take(); found && *found) {
+        offer(**found);
+    }
+    if (next_ == question->alternatives.size()) return;
     const DepthMeaning& now = *state.media.meaning;
     Frame frame;
     frame.depth = std::make_shared<const DepthImage>(
-        depth_by(*frame_, now, meaning_by(question->alternatives[next], now)));
-    frame.colour = frame_->colour;
-    frame.video = frame_->video;
+        depth_by(*frame_, now, meaning_by(question->alternatives[next_], now)));
     SceneContent content{.depth = {&frame, &frame, 0.0}, .colour = &frame};
     const MediaDescription drawn{
         .depth_columns = frame.depth->columns,
@@ -99,7 +174,12 @@ void ViewerAsking::draw_reliefs(const DepthBlend& shown, std::uint32_t media, Vi
     content.light_wall = state.settings.theme == Theme::light;
     const auto picture = std::make_shared<const ColourImage>(
         scene.capture(content, camera_over(*frame.depth, content.shape.relief_px), kDrawn_px));
-    question->reliefs.push_back(reliefs_.at(next).show(picture, kDrawn_px.x, true));
+    const std::uintptr_t relief = reliefs_.at(next_).show(picture, kDrawn_px.x, true);
+    if (next_ < question->reliefs.size())
+        question->reliefs[next_] = relief;
+    else
+        question->reliefs.push_back(relief);
+    ++next_;
 }
 
 }  // namespace dibhr

@@ -22,6 +22,8 @@ class Reporting {
     /// being made. Throws InputError when the program cannot be started.
     bool start(const std::filesystem::path& session);
 
+    [[nodiscard]] bool running() const { return child_ != 0; }
+
     /// The page of a finished report, without waiting. Throws InputError, once, when it failed.
     [[nodiscard]] std::optional<std::filesystem::path> take();
 

@@ -22,7 +22,6 @@ namespace {
 
 using std::chrono::steady_clock;
 
-constexpr double kNoticeTime_s = 4.0;
 /// After input that changed nothing visible: the pointer may move a thousand times a second.
 constexpr std::chrono::milliseconds kAfterInput{8};
 /// From picture to picture while late frames limit drawing and a person moves something.
@@ -64,6 +63,7 @@ Viewer::Viewer(const ViewOptions& options, OpeningWindow& opening, ViewerParts p
       clip_(tasks, shutdown.crash_note()),
       estimating_(tasks),
       preparing_(tasks),
+      asking_(tasks),
       browsing_(tasks),
       desktop_(tasks),
       painting_(tasks),
@@ -389,12 +389,23 @@ void Viewer::log_lateness(const TickSchedule& schedule) {
                              number_text(worst_ms, 3) + " ms");
 }
 
-void Viewer::show_notice(const std::string& notice) {
+void Viewer::show_notice(const std::string& notice, double time_s) {
     const bool shown = notice == state_.ui.notice && now_s() < state_.ui.notice_until_s;
     if (!shown) log_.append("told", notice);
     state_.ui.notice = notice;
     state_.ui.notice_shows_position = false;
-    state_.ui.notice_until_s = now_s() + kNoticeTime_s;
+    state_.ui.notice_until_s = now_s() + time_s;
+}
+
+/// Called in each turn of what lasts: shows the notice until then, after others that come between.
+void Viewer::keep_notice(const std::string& notice) {
+    if (state_.ui.notice == notice || now_s() >= state_.ui.notice_until_s) show_notice(notice);
+}
+
+/// Takes a notice that begins so off the screen.
+void Viewer::end_notice(const std::string& begin) {
+    if (state_.ui.notice.starts_with(begin))
+        state_.ui.notice_until_s = std::min(state_.ui.notice_until_s, now_s());
 }
 
 Transport& Viewer::transport() {

@@ -161,6 +161,8 @@ class Viewer {
     void run();
 
   private:
+    static constexpr double kNoticeTime_s = 4.0;
+
     /// What a turn of the loop has done.
     struct Turn {
         bool input{false};  ///< something happened in the window
@@ -262,7 +264,9 @@ class Viewer {
     void make_report(const std::filesystem::path& session);
     void take_report();
     void take_prepared();
-    void show_notice(const std::string& notice);
+    void show_notice(const std::string& notice, double time_s = kNoticeTime_s);
+    void keep_notice(const std::string& notice);
+    void end_notice(const std::string& begin);
     void log_messages();
     void speak();
     void log_lateness(const TickSchedule& schedule);
@@ -305,7 +309,7 @@ class Viewer {
     ViewerClip clip_;
     ViewerEstimating estimating_;
     ViewerPreparing preparing_;
-    ViewerAsking asking_{};
+    ViewerAsking asking_;
     std::optional<TurnedDepth> turned_{};  // by the last press of the key
     Reporting reporting_{};
     ViewerExplaining explaining_{};

@@ -10,6 +10,12 @@
 
 namespace dibhr {
 
+namespace {
+
+constexpr const char* kMakingReport = "Making the report";
+
+}  // namespace
+
 void Viewer::carry_out_commands() {
     if (state_.touch.replay) replay_.follow_panels(state_);
     if (const auto notice = browsing_.advance(state_)) show_notice(*notice);
@@ -172,7 +178,8 @@ void Viewer::keep_material(const std::string& name) {
 void Viewer::make_report(const std::filesystem::path& session) {
     attempt([&] {
         const bool begun = reporting_.start(std::filesystem::absolute(session));
-        show_notice(begun ? "Making the report" : "Still making the last report");
+        if (!begun) return show_notice("Still making the last report");
+        state_.ui.report = {.session = session, .being_made = true};
     });
 }
 
@@ -191,12 +198,19 @@ void Viewer::take_prepared() {
 }
 
 void Viewer::take_report() {
-    attempt([this] {
+    ReportShown& report = state_.ui.report;
+    if (!report.being_made) return;
+    keep_notice(kMakingReport);
+    attempt([&] {
         const auto page = reporting_.take();
         if (!page) return;
-        show_notice("Report: " + page->string());
+        constexpr double kReadPath_s = 20.0;
+        show_notice("Report: " + page->string(), kReadPath_s);
+        report.page = *page;
         show_in_browser(*page);
     });
+    report.being_made = reporting_.running();
+    if (!report.being_made) end_notice(kMakingReport);
 }
 
 }  // namespace dibhr

@@ -85,10 +85,10 @@ void Viewer::take_opened() {
 std::optional<OpeningShown> Viewer::opening_shown() const {
     if (steady_clock::now() - opening_since_ < kUnnoticedOpening) return std::nullopt;
     if (opening_.running()) return OpeningShown{opening_name_, kReadingFiles};
-    const bool waits = !state_.touch.replay && !state_.media.live &&
-                       !state_.media.depth_path.empty() && !shown_.makes_surface() &&
-                       state_.ui.message.empty();
-    if (!waits) return std::nullopt;
+    const auto& replay = state_.touch.replay;
+    const bool has_frames = replay ? replay->tick.surface && replay->playback.failure.empty()
+                                   : !state_.media.live && !state_.media.depth_path.empty();
+    if (!has_frames || shown_.makes_surface() || !state_.ui.message.empty()) return std::nullopt;
     return OpeningShown{opening_name_, kReadingFirstFrame};
 }
 
@@ -120,11 +120,10 @@ Answer Viewer::open_by_dialog() {
 /// While the desktop's dialog is open, a notice says so.
 void Viewer::take_desktop_answer() {
     const auto answer = desktop_.take();
-    UiState& ui = state_.ui;
-    const bool shown_still = ui.notice.starts_with(kDesktopAsks) && now_s() < ui.notice_until_s;
-    if (desktop_.open() && (shown_still || now_s() >= ui.notice_until_s))
-        show_notice(desktop_words(state_));
-    if (!desktop_.open() && shown_still) ui.notice_until_s = now_s();
+    if (desktop_.open())
+        keep_notice(desktop_words(state_));
+    else
+        end_notice(kDesktopAsks);
     if (!answer) return;
     if (answer->outcome == FileAnswer::Outcome::unavailable) {
         if (state_.settings.open_with == OpenWith::desktop)

@@ -97,6 +97,7 @@ bool Viewer::draw_if_changed(const WindowInput& input) {
         return false;
     }
     const auto now = steady_clock::now();
+    explaining_.advance(shown_, state_, camera_, now_s());  // relief and marks from one view
     const glm::ivec2 viewport = relief_viewport();
     const Camera camera = camera_;  // the panels may move it for the next picture
     SceneContent content = prepare_scene();
@@ -137,7 +138,7 @@ void Viewer::lay_out_panels(std::span<const KeyPress> pressed, const std::functi
     draw_toolbar(state_);
     if (state_.settings.panels_visible) draw_panel_column(state_, transport());
     draw_bottom_bar(state_, transport());
-    const auto fade = [](float& alpha) { alpha = std::max(0.0F, alpha - 0.03F); };
+    const auto fade = [](float& alpha) { alpha = std::max(0.0F, alpha - 0.2F); };
     if (state_.ui.touched) fade(hint_alpha_);
     if (pressed_deeper_) fade(wheel_hint_alpha_);
     const bool mouse_touches =
@@ -169,7 +170,6 @@ void Viewer::lay_out_panels(std::span<const KeyPress> pressed, const std::functi
 }
 
 void Viewer::draw_explained() {
-    explaining_.advance(shown_, state_, camera_, now_s());
     if (!state_.ui.explained) return;
     const glm::ivec2 viewport = relief_viewport();
     const DepthSurface surface = shown_.surface(state_.shape(), state_.touch.bump.get());

@@ -175,9 +175,12 @@ void Browsing::take_typed(ViewerState& state) {
 }
 
 void Browsing::mark_recordings(OpenDialog& dialog) {
-    for (const fs::path& folder : recordings_.take())
-        if (const auto entry = index_of_entry(dialog.folder, folder))
-            dialog.folder.entries[*entry].recording = true;
+    for (const FoundRecording& found : recordings_.take()) {
+        const auto at = index_of_entry(dialog.folder, found.folder);
+        if (!at) continue;
+        dialog.folder.entries[*at].recording = true;
+        dialog.folder.entries[*at].folders = found.folders;
+    }
 }
 
 /// Shows the preview of the chosen entry once that has rested for a moment; one of another entry

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 struct RecordingFolders::Found {
     std::atomic<bool> stops{false};
     std::mutex mutex{};
-    std::vector<fs::path> folders{};
+    std::vector<FoundRecording> folders{};
 };
 
 namespace {
@@ -60,6 +60,20 @@ bool may_be_recording(const fs::path& folder) {
     return false;
 }
 
+int folders_beside_frames(const fs::path& folder) {
+    std::error_code failed;
+    int folders = 0;
+    int names = 0;
+    for (fs::directory_iterator entries(folder, failed);
+         !failed && entries != fs::directory_iterator() && names < kMostNames;
+         entries.increment(failed), ++names) {
+        std::error_code unknown;
+        const bool hidden = entries->path().filename().string().starts_with('.');
+        if (!hidden && entries->is_directory(unknown) && !names_part(entries->path())) ++folders;
+    }
+    return folders;
+}
+
 void RecordingFolders::stop() {
     if (found_) found_->stops = true;
     found_.reset();
@@ -73,14 +87,15 @@ void RecordingFolders::search(const Folder& folder) {
             if (found->stops) return false;
             if (entry.kind != FileKind::folder || !may_be_recording(entry.file)) continue;
             if (!opens(entry)) continue;
+            const int folders = folders_beside_frames(entry.file);
             const std::lock_guard lock(found->mutex);
-            found->folders.push_back(entry.file);
+            found->folders.push_back({entry.file, folders});
         }
         return true;
     });
 }
 
-std::vector<fs::path> RecordingFolders::take() {
+std::vector<FoundRecording> RecordingFolders::take() {
     if (!found_) return {};
     const std::lock_guard lock(found_->mutex);
     return std::exchange(found_->folders, {});

@@ -13,6 +13,15 @@ namespace dibhr {
 /// Whether a folder may be a recording, by the names in it. Waits for the disk.
 [[nodiscard]] bool may_be_recording(const std::filesystem::path& folder);
 
+/// How many folders a recording's folder holds besides those of its own frames. Waits for the disk.
+[[nodiscard]] int folders_beside_frames(const std::filesystem::path& folder);
+
+/// A folder that is a recording.
+struct FoundRecording {
+    std::filesystem::path folder{};
+    int folders{0};  ///< folders_beside_frames()
+};
+
 /// Opens each folder in a folder as the program would, on a thread of its own.
 class RecordingFolders {
   public:
@@ -26,7 +35,7 @@ class RecordingFolders {
     void search(const Folder& folder);
     void stop();
     /// Those that were found since the last call.
-    [[nodiscard]] std::vector<std::filesystem::path> take();
+    [[nodiscard]] std::vector<FoundRecording> take();
 
   private:
     struct Found;

@@ -157,6 +157,23 @@ TEST_CASE("the depth by another meaning is what opening the file by it gives", "
     }
 }
 
+TEST_CASE("an empty beginning is not what the question shows: a frame with a thing in it is",
+          "[asking]") {
+    const TemporaryFolder folder;
+    run_shell(folder,
+              "ffmpeg -nostdin -v error -f lavfi -i color=gray:s=64x48:r=10:d=2 -vf "
+              "\"drawbox=x=16:y=12:w=32:h=24:color=white:t=fill:enable='gte(t,1)'\" "
+              "-c:v ffv1 depth.mkv");
+    const DepthRequest request{.find_out = true};
+    const auto media = open_media({}, folder / "depth.mkv", request);
+    Frame empty;
+    empty.depth = std::make_shared<const DepthImage>(media->next()->depth);
+    const auto telling = telling_frame(media->description(), request);
+    REQUIRE(telling);
+    CHECK(spread_of(*telling) > spread_of(empty) + 0.1);
+    CHECK_FALSE(telling_frame({.still = true}, request));
+}
+
 TEST_CASE("a key answers which depth is right: no force before, and nobody asks again",
           "[asking]") {
     const Desk desk;

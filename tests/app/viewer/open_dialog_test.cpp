@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/viewer/browsing/recording_folders.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
@@ -78,6 +79,14 @@ TEST_CASE("a folder that is a recording is marked and opens and another one is e
     viewer.wait_until([](const Seen& now) {
         return !now.dialog && now.surface && now.file.str().ends_with("take");
     });
+}
+
+TEST_CASE("of a recording the folders beside those of its frames are counted", "[dialog]") {
+    const TemporaryFolder folder;
+    for (const char* const name : {"rgb", "depth", ".cache", "other", "third"})
+        fs::create_directory(folder / name);
+    CHECK(folders_beside_frames(folder.path()) == 2);
+    CHECK(folders_beside_frames(folder / "rgb") == 0);
 }
 
 TEST_CASE("a folder that is a recording can be looked into by keyboard", "[dialog]") {

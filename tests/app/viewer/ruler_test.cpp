@@ -21,7 +21,7 @@ TEST_CASE("a ruler says how far two points are apart, in pixels, under the hand 
     CHECK(contains(ruler_text(state), "the other point"));
     state.ui.ruler->ends.push_back(
         {.column = 13, .row = 24, .nearness = 0.75, .elevation_px = 17.0});
-    CHECK(ruler_text(state) == "Ruler   13.0 px, 6.50 mm");
+    CHECK(ruler_text(state) == "Ruler   13.0 px, 6.50 mm under the hand");
     DepthMeaning meaning;
     meaning.unit.value = DepthUnit::mm;
     meaning.scale.value = 1.0;
