@@ -197,12 +197,12 @@ TEST_CASE("a path that is no readable file is refused", "[firmware]") {
     const Folder folder;
     CHECK(contains(refusal_of(folder.path()), "it is a folder"));
     CHECK(contains(refusal_of(folder / "missing.bin"), "there is no file"));
-    CHECK(contains(refusal_of("/dev/zero"), "no ordinary file"));
+    CHECK(contains(refusal_of("/dev/zero"), "not an ordinary file"));
     CHECK_FALSE(refusal_of(folder.holding("x") / "inner.bin").empty());
 
     const fs::path pipe = folder / "pipe";
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
-    CHECK(contains(refusal_of(pipe), "no ordinary file"));
+    CHECK(contains(refusal_of(pipe), "not an ordinary file"));
 
     // Nobody may read it; the superuser may read everything but this.
     const fs::path locked = folder.holding(synthetic_firmware());

@@ -13,7 +13,7 @@ using Catch::Matchers::WithinRel;
 namespace {
 
 template <typename Level>
-DepthImage image_of(int columns, int rows, double highest, const Level& level) {
+DepthImage shares_of(int columns, int rows, double highest, const Level& level) {
     DepthImage image;
     image.columns = columns;
     image.rows = rows;
@@ -31,7 +31,7 @@ TEST_CASE("a plane has its slope at every size and with all forms of levels", "[
     const double highest = GENERATE(1.0, 255.0, 65535.0);
     const double across = 0.8 / columns;
     const DepthImage plane =
-        image_of(columns, 48, highest, [across](int i, int j) { return across * (i + 0.5 * j); });
+        shares_of(columns, 48, highest, [across](int i, int j) { return across * (i + 0.5 * j); });
     REQUIRE(texture_slope(plane));
     CHECK_THAT(*texture_slope(plane), WithinRel(across, 0.01));
 }
@@ -42,7 +42,7 @@ TEST_CASE("noise of a tenth of the range is no slope of a scene at any size", "[
     std::mt19937 random(3);
     std::uniform_real_distribution<double> noise(-0.05, 0.05);
     const DepthImage flat =
-        image_of(columns, 120, 255.0, [&](int, int) { return 0.5 + noise(random); });
+        shares_of(columns, 120, 255.0, [&](int, int) { return 0.5 + noise(random); });
     REQUIRE(texture_slope(flat));
     CHECK(*texture_slope(flat) * kPaperRelief * columns < 1.0);
 }
@@ -50,9 +50,9 @@ TEST_CASE("noise of a tenth of the range is no slope of a scene at any size", "[
 TEST_CASE("pixels without data do not count; hardly any picture has no slope", "[texture_slope]") {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     const DepthImage half =
-        image_of(128, 64, 255.0, [](int i, int) { return i < 64 ? 0.004 * i : kNone; });
+        shares_of(128, 64, 255.0, [](int i, int) { return i < 64 ? 0.004 * i : kNone; });
     REQUIRE(texture_slope(half));
     CHECK_THAT(*texture_slope(half), WithinRel(0.004, 0.01));
-    CHECK_FALSE(texture_slope(image_of(128, 64, 255.0, [](int, int) { return kNone; })));
-    CHECK_FALSE(texture_slope(image_of(7, 7, 255.0, [](int, int) { return 0.5; })));
+    CHECK_FALSE(texture_slope(shares_of(128, 64, 255.0, [](int, int) { return kNone; })));
+    CHECK_FALSE(texture_slope(shares_of(7, 7, 255.0, [](int, int) { return 0.5; })));
 }
