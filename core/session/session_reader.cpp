@@ -185,7 +185,7 @@ SessionReader::Log SessionReader::log_by_head() {
     std::error_code failed;
     if (!std::filesystem::exists(file_, failed))
         throw InputError(file_.string() + ": no such file; check its name");
-    if (!std::filesystem::is_regular_file(file_, failed)) refuse("no ordinary file");
+    if (!std::filesystem::is_regular_file(file_, failed)) refuse("not an ordinary file");
     // SQLite's file format, section 1.3: at 16 the size of a page, 1 for 65536; at 18 and 19 a 2
     // each for a write-ahead log; at 28 the number of pages, valid if the numbers at 24 and 92 are
     // the same. All big-endian.

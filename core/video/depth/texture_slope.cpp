@@ -13,7 +13,7 @@ namespace dibhr {
 std::optional<double> texture_slope(const DepthImage& image) {
     constexpr int kLeastSide_px = 4;
     constexpr int kSidesAcross = 240;
-    constexpr std::size_t kLeastSlopes = 100;
+    constexpr std::size_t kLeastCount = 100;
     const int side_px = std::max(kLeastSide_px, image.columns / kSidesAcross);
     const cv::Size squares(image.columns / side_px, image.rows / side_px);
     if (squares.width < 2 || squares.height < 2) return std::nullopt;
@@ -30,7 +30,7 @@ std::optional<double> texture_slope(const DepthImage& image) {
                 std::max(std::abs(means(j, i + 1) - here), std::abs(means(j + 1, i) - here));
             if (std::isfinite(slope)) slopes.push_back(slope);
         }
-    if (slopes.size() < kLeastSlopes) return std::nullopt;
+    if (slopes.size() < kLeastCount) return std::nullopt;
     const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
     std::nth_element(slopes.begin(), middle, slopes.end());
     return static_cast<double>(*middle) / side_px / image.highest_level;

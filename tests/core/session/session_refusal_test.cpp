@@ -57,7 +57,7 @@ TEST_CASE("a file that is none is refused with one line that says which and what
     }
     SECTION("a folder") {
         std::filesystem::create_directory(folder.file());
-        CHECK(contains(refusal(), "no ordinary file"));
+        CHECK(contains(refusal(), "not an ordinary file"));
     }
     SECTION("empty") {
         std::ofstream(folder.file()).flush();
