@@ -37,22 +37,22 @@ TEST_CASE("a plane has its slope at every size and with all forms of levels", "[
 }
 
 TEST_CASE("noise of a tenth of the range is no slope of a scene at any size", "[texture_slope]") {
-    constexpr double kPaperRelief = 255.0 / 720.0;
+    constexpr double kReliefOfPaper = 255.0 / 720.0;
     const int columns = GENERATE(320, 640, 1280, 1920);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> noise(-0.05, 0.05);
     const DepthImage flat =
         shares_of(columns, 120, 255.0, [&](int, int) { return 0.5 + noise(random); });
     REQUIRE(texture_slope(flat));
-    CHECK(*texture_slope(flat) * kPaperRelief * columns < 1.0);
+    CHECK(*texture_slope(flat) * kReliefOfPaper * columns < 1.0);
 }
 
 TEST_CASE("pixels without data do not count; hardly any picture has no slope", "[texture_slope]") {
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kWithoutData = std::numeric_limits<double>::quiet_NaN();
     const DepthImage half =
-        shares_of(128, 64, 255.0, [](int i, int) { return i < 64 ? 0.004 * i : kNone; });
+        shares_of(128, 64, 255.0, [](int i, int) { return i < 64 ? 0.004 * i : kWithoutData; });
     REQUIRE(texture_slope(half));
     CHECK_THAT(*texture_slope(half), WithinRel(0.004, 0.01));
-    CHECK_FALSE(texture_slope(shares_of(128, 64, 255.0, [](int, int) { return kNone; })));
+    CHECK_FALSE(texture_slope(shares_of(128, 64, 255.0, [](int, int) { return kWithoutData; })));
     CHECK_FALSE(texture_slope(shares_of(7, 7, 255.0, [](int, int) { return 0.5; })));
 }
