@@ -312,14 +312,16 @@ void StudyWindow::take_keys(const WindowInput& input) {
         Clock::time_point at{};
     };
     std::vector<Pressed> all;
-    for (const KeyPress& key : input.keys)
+    const auto add_key = [&all](const KeyPress& key) {
         all.push_back({list_key(key.key) == ListKey::take ? "Enter" : name_of(Key{key.key}),
                        key.shift, key.repeated, false, key.at});
-    for (const TypedCharacter& typed : input.characters)
+    };
+    const auto add_character = [&all](const TypedCharacter& typed) {
         if (typed.code <= 0x7f)
             all.push_back({std::string(1, static_cast<char>(typed.code)), typed.shift,
                            typed.repeated, true, typed.at});
-    std::ranges::stable_sort(all, {}, &Pressed::at);
+    };
+    each_in_order(input, add_key, add_character);
     std::optional<Clock::time_point> taken;  // by a key: its character is no second press
     for (const Pressed& one : all) {
         if (one.typed && taken == one.at) continue;

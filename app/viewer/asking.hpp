@@ -31,7 +31,7 @@ namespace dibhr {
 void take_digit(int digit, ViewerState& state);
 
 /// How far the drawn depth spreads, as the standard deviation of its nearness, 0 to 0.5. Where it
-/// is large, near and far are easily told apart.
+/// is large, near and far are easily distinguished.
 [[nodiscard]] double spread_of(const Frame& frame);
 
 /// Of four frames over the length of the media, the one with the largest spread, without colour;

@@ -38,10 +38,6 @@ std::string milliseconds(double seconds) {
     return number_text(1000.0 * seconds, 0) + " ms";
 }
 
-bool is_mouse_only(const HandTicks& hand) {
-    return hand.mouse_fallback > 0 && hand.mouse_fallback >= hand.all;
-}
-
 }  // namespace
 
 std::string percent_text(double share) {
@@ -98,7 +94,7 @@ std::vector<std::string> remarks_of(const SessionReport& report) {
     say(damaged ? 0 : ticks.missing, " between the first and the last were not recorded.");
     say(ticks.without_surface, " had no surface to touch.");
     say(ticks.device_not_ready, " had no device that was ready.");
-    say(is_mouse_only(hand_of(ticks)) ? 0 : ticks.mouse_fallback,
+    say(hand_of(ticks).is_mouse_only() ? 0 : ticks.mouse_fallback,
         " were moved by the mouse, because the device was not ready.");
     say(ticks.goal_refused,
         " had a place of the hand that was no number; the place before it was used.");
@@ -161,7 +157,7 @@ std::vector<Definition> definitions() {
 
 std::string device_text(const std::string& device, const HandTicks& hand) {
     if (hand.mouse_fallback <= 0) return device;
-    if (is_mouse_only(hand)) return "mouse";
+    if (hand.is_mouse_only()) return "mouse";
     constexpr double kLeast = 0.1;  // percent; not none, and not all
     const double percent =
         100.0 * static_cast<double>(hand.mouse_fallback) / static_cast<double>(hand.all);
@@ -175,7 +171,7 @@ HandTicks hand_of(const TickCounts& ticks) {
 
 SessionFacts facts_of_hand(SessionFacts facts, const HandTicks& hand,
                            const std::vector<std::string>& kinds) {
-    if (!is_mouse_only(hand)) return facts;
+    if (!hand.is_mouse_only()) return facts;
     std::erase_if(facts, [&kinds](const auto& fact) {
         const auto begins_with = [&fact](const std::string& kind) {
             return fact.first.starts_with(kind + "-");

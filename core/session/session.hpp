@@ -118,6 +118,10 @@ class Session {
 struct HandTicks {
     std::int64_t all{0};
     std::int64_t mouse_fallback{0};  ///< the mouse's, for a device that was not ready
+
+    [[nodiscard]] bool is_mouse_only() const noexcept {
+        return mouse_fallback > 0 && mouse_fallback >= all;
+    }
 };
 
 /// Reads every tick. Throws InputError for a damaged file.

@@ -98,10 +98,6 @@ HandTicks joined_hand(const HandTicks& a, const HandTicks& b) noexcept {
     return {a.all + b.all, a.mouse_fallback + b.mouse_fallback};
 }
 
-bool is_mouse_only(const HandTicks& hand) noexcept {
-    return hand.all > 0 && hand.mouse_fallback >= hand.all;
-}
-
 /// The place of a row's condition among the protocol's: motion_condition() begins with its name.
 std::size_t place_of(const std::string& row_condition, const Protocol& protocol) {
     std::size_t place = protocol.conditions.size();
@@ -256,7 +252,7 @@ bool ParticipantHand::used_mouse() const noexcept {
 
 bool ParticipantHand::used_only_mouse() const noexcept {
     return !devices.empty() && std::ranges::all_of(devices, [](const auto& device) {
-        return is_mouse_only(device.second);
+        return device.second.is_mouse_only();
     });
 }
 
@@ -266,7 +262,7 @@ std::vector<ParticipantHand> hands_in(const std::vector<IntervalRow>& rows,
     for (const IntervalRow& row : rows) {
         const HandTicks& ticks = row.motion.hand;
         if (ticks.all == 0) continue;
-        HandTicks& of = hands[row.participant].devices[is_mouse_only(ticks) ? kMouse : row.device];
+        HandTicks& of = hands[row.participant].devices[ticks.is_mouse_only() ? kMouse : row.device];
         of = joined_hand(of, ticks);
     }
     return hands;

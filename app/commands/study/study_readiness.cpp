@@ -74,7 +74,7 @@ Margin margin_on(const Protocol& protocol, const ForceDeviceKind& kind,
         const Coupling held = held_coupling(parameters.coupling, limits);
         const double supported = held.stiffness_newton_per_mm;
         if (supported < requested)
-            margin.softer.push_back(condition.name + ": asks for " + number_text(requested) +
+            margin.softer.push_back(condition.name + ": requests " + number_text(requested) +
                                     " N/mm, " + kind.article + " can give " +
                                     number_text(supported));
         const Coupling effective = stable_coupling(held, supported, limits.dynamics);
@@ -103,7 +103,7 @@ std::string margin_text(const Margin& margin, const ForceDeviceKind& kind) {
     const auto softer = static_cast<std::int64_t>(margin.softer.size());
     return std::string(kind.article) + ' ' +
            (margin.moves ? short_text(margin.least_ns_per_m, 3) + " N s/m" : "without swinging") +
-           (softer == 0 ? "" : " (" + counted(softer, "condition") + " softer than asked for)");
+           (softer == 0 ? "" : " (" + counted(softer, "condition") + " softer than requested)");
 }
 
 /// Returns the attached kinds on which every condition is stable.

@@ -12,8 +12,8 @@
 
 namespace dibhr {
 
-/// Shows the steps and takes no input: each step ends when the person has done it, or after 6.5 s;
-/// that of the stroke not while a finger moves on the jumper.
+/// Shows the steps and takes no input: each step ends when the person has done it, or after 6.5 s.
+/// A finger that moves on the jumper prolongs the step of the stroke.
 class ViewerLead {
   public:
     /// The sample is shown: leads, unless somebody was led before, or the regions lack the nose or

@@ -24,6 +24,14 @@ bool says(const ProgramResult& result, const std::string& words) {
     return result.output.find(words) != std::string::npos;
 }
 
+/// mine.dibhr in that folder, over color.png and depth.png.
+void record_over_pictures(const TemporaryFolder& folder) {
+    write_depth_png(folder / "color.png", 64, 48, 20, 3);
+    write_depth_png(folder / "depth.png", 32, 24, 100, 1);
+    record_session(folder / "mine.dibhr",
+                   {.colour = folder / "color.png", .depth = folder / "depth.png"});
+}
+
 }  // namespace
 
 TEST_CASE("info describes an image and the depth file beside it", "[info]") {
@@ -189,10 +197,7 @@ TEST_CASE("info describes a session file", "[info]") {
 TEST_CASE("info says of a session what people want to know first, and what decoded its video",
           "[info]") {
     const TemporaryFolder folder;
-    write_depth_png(folder / "color.png", 64, 48, 20, 3);
-    write_depth_png(folder / "depth.png", 32, 24, 100, 1);
-    record_session(folder / "mine.dibhr",
-                   {.colour = folder / "color.png", .depth = folder / "depth.png"});
+    record_over_pictures(folder);
     run_shell(folder,
               "sqlite3 mine.dibhr \"INSERT OR REPLACE INTO session VALUES('algorithm', 'dibhr'), "
               "('stiffness', '0.5'), ('device', 'mouse'), ('a-fact', 'of no interest'); "
@@ -221,10 +226,7 @@ TEST_CASE("info says of a session what people want to know first, and what decod
 
 TEST_CASE("info rounds a session's numbers and names the settings of its device alone", "[info]") {
     const TemporaryFolder folder;
-    write_depth_png(folder / "color.png", 64, 48, 20, 3);
-    write_depth_png(folder / "depth.png", 32, 24, 100, 1);
-    record_session(folder / "mine.dibhr",
-                   {.colour = folder / "color.png", .depth = folder / "depth.png"});
+    record_over_pictures(folder);
     run_shell(folder,
               "sqlite3 mine.dibhr \"INSERT OR REPLACE INTO session VALUES"
               "('relief', '226.66666666666669'), ('libx', '1.10'), ('falcon-gear', '7.7'), "
@@ -315,10 +317,7 @@ TEST_CASE("nothing that a session says reaches the terminal but letters", "[info
 
 TEST_CASE("every command warns of a recording that was copied without its log", "[info]") {
     const TemporaryFolder folder;
-    write_depth_png(folder / "color.png", 64, 48, 20, 3);
-    write_depth_png(folder / "depth.png", 32, 24, 100, 1);
-    record_session(folder / "mine.dibhr",
-                   {.colour = folder / "color.png", .depth = folder / "depth.png"});
+    record_over_pictures(folder);
     run_shell(folder,
               "sqlite3 mine.dibhr \"PRAGMA journal_mode = WAL; "
               "UPDATE session SET value = '0' WHERE key = 'complete'\"");
