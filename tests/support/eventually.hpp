@@ -6,10 +6,10 @@
 
 namespace dibhr::test {
 
-/// Polls every 2 ms until the condition is true; false when it was not in time.
+/// Polls every 2 ms until the condition is true; false when it was not in two minutes.
 template <typename Condition>
 [[nodiscard]] bool eventually(const Condition& is_so,
-                              std::chrono::milliseconds patience = std::chrono::seconds(20)) {
+                              std::chrono::milliseconds patience = std::chrono::minutes(2)) {
     const auto deadline = std::chrono::steady_clock::now() + patience;
     while (!is_so()) {
         if (std::chrono::steady_clock::now() > deadline) return false;

@@ -80,8 +80,7 @@ FileAnswer ask(const Helpers& helpers, const std::string& desktop = "GNOME",
 
 /// The answer of a dialog that was called off.
 FileAnswer answer_of(std::future<FileAnswer>& asking) {
-    REQUIRE(eventually([&asking] { return asking.wait_for(0s) == std::future_status::ready; },
-                       std::chrono::minutes(1)));
+    REQUIRE(eventually([&asking] { return asking.wait_for(0s) == std::future_status::ready; }));
     return asking.get();
 }
 

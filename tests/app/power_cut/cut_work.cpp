@@ -21,7 +21,9 @@
 #include "core/clip/clip_file.hpp"
 #include "core/estimate/depth_estimate.hpp"
 #include "core/haptics/touch_maps.hpp"
+#include "core/report/session_report.hpp"
 #include "core/session/recorder.hpp"
+#include "core/session/session.hpp"
 #include "core/study/study_file.hpp"
 #include "core/video/sources/kept_choices.hpp"
 #include "core/video/sources/media.hpp"
@@ -121,6 +123,13 @@ void write_study(const fs::path& folder) {
     kept();
 }
 
+void write_report(const fs::path& folder) {
+    const auto no_picture = [](const SessionSource&, double) { return RecordedPicture{}; };
+    write_session_report(Session(folder / "mine.dibhr"),
+                         {.folder = folder / "made", .program = "dibhr", .pictures = no_picture});
+    kept();
+}
+
 void make_depth(const fs::path& folder) {
     EstimateWatch watch;
     if (estimate_depth(test::cut_request(folder), watch)) kept();
@@ -139,6 +148,7 @@ const std::map<std::string, std::function<void(const fs::path&)>>& cut_work() {
         {"pictures", write_pictures},
         {"session", write_session},
         {"recording", record},
+        {"report", write_report},
         {"study", write_study},
         {"cache", make_depth}};
     return all;

@@ -106,7 +106,7 @@ Process::~Process() {
 }
 
 int Process::wait() {
-    const bool ended = eventually([this] { return has_ended(); }, std::chrono::minutes(2));
+    const bool ended = eventually([this] { return has_ended(); });
     if (!ended) send(SIGKILL);
     int status = 0;
     ::waitpid(child_, &status, 0);
@@ -167,7 +167,7 @@ void WindowProgram::wait_until(const std::function<bool(const Seen&)>& is_so) co
 
 void WindowProgram::hang() const {
     (*board_)->hangs = true;
-    REQUIRE(eventually([this] { return (*board_)->is_hanging.load(); }, std::chrono::minutes(1)));
+    REQUIRE(eventually([this] { return (*board_)->is_hanging.load(); }));
 }
 
 void WindowProgram::go_on() const {

@@ -281,8 +281,8 @@ TEST_CASE("a pad that hangs holds up neither who touches nor the end", "[pads]")
     touching->push(100, kAir);
     touching->output.choose({}, true, false);
     auto end = std::async(std::launch::async, [&touching] { touching.reset(); });
-    CHECK(eventually([&end] { return end.wait_for(milliseconds(0)) == std::future_status::ready; },
-                     std::chrono::minutes(1)));
+    CHECK(
+        eventually([&end] { return end.wait_for(milliseconds(0)) == std::future_status::ready; }));
     CHECK(source.use_count() > 1);  // its thread still hangs in the pad's driver
     pad.hang(false);
     CHECK(eventually([&] { return source.use_count() == 1; }));

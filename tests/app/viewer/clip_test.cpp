@@ -82,8 +82,7 @@ int pictures_written(const TemporaryFolder& folder) {
 /// Waits until there are more pictures than that; returns how many.
 int wait_for_more(const TemporaryFolder& folder, int pictures) {
     int now = 0;
-    REQUIRE(eventually([&] { return (now = pictures_written(folder)) > pictures; },
-                       std::chrono::seconds(60)));
+    REQUIRE(eventually([&] { return (now = pictures_written(folder)) > pictures; }));
     return now;
 }
 

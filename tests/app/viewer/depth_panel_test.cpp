@@ -1,5 +1,4 @@
 // The rows of the Video panel that say what depth means, under a synthetic pointer and keyboard.
-#include <chrono>
 #include <filesystem>
 #include <string>
 
@@ -63,8 +62,7 @@ class DepthRows {
 
     /// Waits until the choice is saved, which takes as long as opening the file again.
     [[nodiscard]] bool come_to_keep(const DepthStatement& wanted) const {
-        const bool kept =
-            eventually([&] { return home_.kept() == wanted; }, std::chrono::minutes(1));
+        const bool kept = eventually([&] { return home_.kept() == wanted; });
         viewer_.wait_until([](const Seen& now) { return !now.opening; });
         return kept;
     }

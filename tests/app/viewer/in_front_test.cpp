@@ -84,13 +84,11 @@ void check_force_goes_and_comes_back(const std::string& manager) {
     // Some managers activate a window by themselves, and some before the X server shows it: then
     // the server does not give it the keyboard, and a person would click once more.
     const auto has_force_again = [&] {
-        REQUIRE(eventually(
-            [&] {
-                if (!at.viewer.seen().in_front)
-                    static_cast<void>(managed.performs("wmctrl -i -a " + window));
-                return at.falcon.vector("motor_newton").z > 0.6;
-            },
-            std::chrono::minutes(1)));
+        REQUIRE(eventually([&] {
+            if (!at.viewer.seen().in_front)
+                static_cast<void>(managed.performs("wmctrl -i -a " + window));
+            return at.falcon.vector("motor_newton").z > 0.6;
+        }));
     };
     const auto goes_and_comes_back = [&](const std::string& goes, const std::string& back) {
         CAPTURE(goes);

@@ -159,12 +159,10 @@ TEST_CASE("opening in the background gives the words of the error, and can be tr
     for (int attempt = 0; attempt < 2; ++attempt) {
         REQUIRE(opening.start([request] { return try_open(request); }));
         std::optional<OpenResult> opened;
-        REQUIRE(eventually(
-            [&] {
-                opened = opening.take();
-                return opened.has_value();
-            },
-            std::chrono::minutes(1)));
+        REQUIRE(eventually([&] {
+            opened = opening.take();
+            return opened.has_value();
+        }));
         CHECK(opened->media == nullptr);
         CHECK(opened->failure.find("nowhere.mp4") != std::string::npos);
     }
@@ -184,7 +182,7 @@ TEST_CASE("work that never ends is left behind, which whoever ends the program i
         CHECK_FALSE(errand.start([] { return 2; }));
         CHECK_FALSE(errand.take());
         errand.restart([] { return 2; });  // the first result is dropped
-        CHECK(eventually([&] { return errand.take() == 2; }, std::chrono::minutes(1)));
+        CHECK(eventually([&] { return errand.take() == 2; }));
     }
     // A wait for the task until here would never end.
     CHECK_FALSE(tasks.wait_all(std::chrono::milliseconds(1)));

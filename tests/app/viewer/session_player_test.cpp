@@ -73,13 +73,11 @@ template <typename Done>
 std::vector<SessionMoment> play_until(SessionPlayer& player, Done done) {
     std::vector<SessionMoment> passed;
     const auto keep = [&passed](const SessionMoment& moment) { passed.push_back(moment); };
-    REQUIRE(eventually(
-        [&] {
-            if (done(passed)) return true;
-            player.advance(next_picture(), keep);
-            return done(passed);
-        },
-        std::chrono::minutes(1)));
+    REQUIRE(eventually([&] {
+        if (done(passed)) return true;
+        player.advance(next_picture(), keep);
+        return done(passed);
+    }));
     return passed;
 }
 
@@ -172,13 +170,11 @@ TEST_CASE(
     ViewerExplaining explaining;
     replay.begin(recorded.open(), {}, state);
     const auto show_until = [&](auto done) {
-        REQUIRE(eventually(
-            [&] {
-                replay.advance(state, next_picture());
-                explaining.advance(replay.shown(), state, camera, 0.0);
-                return done();
-            },
-            std::chrono::minutes(1)));
+        REQUIRE(eventually([&] {
+            replay.advance(state, next_picture());
+            explaining.advance(replay.shown(), state, camera, 0.0);
+            return done();
+        }));
     };
     replay.player()->pause();
     replay.player()->seek(before.t_s);
@@ -224,25 +220,23 @@ TEST_CASE("a replay keeps the session's time, and stands still only for what is 
         begin_s = player.moment()->tick.t_s;
     };
     std::size_t in_time = 0;
-    REQUIRE(eventually(
-        [&] {
-            const bool had_begun = player.moment() != nullptr;
-            const SessionPlayer::Time now = next_picture();
-            player.advance(now, [](const SessionMoment&) {});
-            if (player.moment() == nullptr) return false;
-            if (!had_begun) anchor(now);
-            const std::chrono::duration<double> passed = now - begin;
-            const double due_s = begin_s + speed * passed.count();
-            CHECK(player.moment()->tick.t_s <= due_s);
-            if (player.playback().waiting) {
-                anchor(now);
-            } else {
-                CHECK(player.moment()->tick.tick == last_due(ticks, due_s));
-                ++in_time;
-            }
-            return !player.playback().playing;
-        },
-        std::chrono::minutes(1)));
+    REQUIRE(eventually([&] {
+        const bool had_begun = player.moment() != nullptr;
+        const SessionPlayer::Time now = next_picture();
+        player.advance(now, [](const SessionMoment&) {});
+        if (player.moment() == nullptr) return false;
+        if (!had_begun) anchor(now);
+        const std::chrono::duration<double> passed = now - begin;
+        const double due_s = begin_s + speed * passed.count();
+        CHECK(player.moment()->tick.t_s <= due_s);
+        if (player.playback().waiting) {
+            anchor(now);
+        } else {
+            CHECK(player.moment()->tick.tick == last_due(ticks, due_s));
+            ++in_time;
+        }
+        return !player.playback().playing;
+    }));
     CHECK(in_time > 0);
     CHECK(player.moment()->tick.tick == ticks.back().tick);
 }

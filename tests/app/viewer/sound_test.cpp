@@ -50,13 +50,11 @@ Words small_window(const TemporaryFolder& folder, Words arguments) {
 /// Drags to and fro over the surface until the condition holds.
 template <typename Condition>
 bool rub_until(const WindowProgram& viewer, const Condition& is_so) {
-    return eventually(
-        [&] {
-            for (const char* const way : {"40 0", "40 0", "-40 0", "-40 0"})
-                viewer.act(std::string("mousemove_relative ") + way);
-            return is_so();
-        },
-        std::chrono::minutes(1));
+    return eventually([&] {
+        for (const char* const way : {"40 0", "40 0", "-40 0", "-40 0"})
+            viewer.act(std::string("mousemove_relative ") + way);
+        return is_so();
+    });
 }
 
 /// Starts the viewer with a game pad, whose motors write into pad.txt of its folder.

@@ -1,7 +1,6 @@
 // The display, the window's thread or a disk stands still while a hand presses: the force goes off,
 // and a signal still ends the program.
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
@@ -129,7 +128,7 @@ TEST_CASE(
     const auto is_there = [&desk] {
         return run_on(desk, "xdotool search --onlyvisible --name '^The sample.* - dibhr$'");
     };
-    REQUIRE(eventually(is_there, std::chrono::minutes(1)));
+    REQUIRE(eventually(is_there));
     if (by_key)
         desk.press("key q");
     else

@@ -1,7 +1,6 @@
 // The real window under a synthetic pointer: what is recorded is what a hand on the mouse must
 // feel.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -279,7 +278,7 @@ TEST_CASE(
     viewer.wait_for_surface();
     const fs::path session = home / "hand.dibhr";
     const auto come_to = [&session](const std::vector<bool>& cleaned) {
-        return eventually([&] { return cleaned_in(session) == cleaned; }, std::chrono::minutes(1));
+        return eventually([&] { return cleaned_in(session) == cleaned; });
     };
     CHECK(come_to({true}));
     viewer.act("keydown b");
@@ -301,12 +300,10 @@ TEST_CASE(
     const auto is_picture = [](const std::string& name) {
         return name.starts_with("dibhr-") && name.ends_with(".png");
     };
-    CHECK(eventually(
-        [&] {
-            const auto names = names_in(home.path());
-            return std::any_of(names.begin(), names.end(), is_picture);
-        },
-        std::chrono::minutes(1)));
+    CHECK(eventually([&] {
+        const auto names = names_in(home.path());
+        return std::any_of(names.begin(), names.end(), is_picture);
+    }));
     viewer.wait_until([rows](const Seen& now) { return now.recorded_rows > rows; });
     desk.press("key ctrl+q");
     CHECK(viewer.wait() == 0);

@@ -83,12 +83,10 @@ class FullPipe {
     [[nodiscard]] std::string name() const { return (folder_ / "pipe.png").string(); }
     /// Waits until something is written into it.
     void wait_until_written() const {
-        REQUIRE(eventually(
-            [this] {
-                int bytes = 0;
-                return ::ioctl(reader_, FIONREAD, &bytes) == 0 && bytes > 0;
-            },
-            std::chrono::seconds(60)));
+        REQUIRE(eventually([this] {
+            int bytes = 0;
+            return ::ioctl(reader_, FIONREAD, &bytes) == 0 && bytes > 0;
+        }));
     }
 
   private:

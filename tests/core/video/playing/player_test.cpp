@@ -234,6 +234,8 @@ TEST_CASE("a file that is cut while it plays is told, and what is left plays on"
 
 TEST_CASE("the loop goes round and raises the discontinuity once a lap", "[player]") {
     Player player;
+    // A busy machine leaves out no steps of it, which would raise the discontinuity, too.
+    player.set_cleaning({.preset = CleaningPreset::raw});
     player.set_speed(4.0);
     player.play_media(clip().open());
     REQUIRE(eventually([&] { return player.haptics().front().count > 0; }));
