@@ -11,10 +11,11 @@ namespace {
 
 // In units (outline_unit()).
 constexpr float kSameColour = 10.0F;  // a larger difference in elevation is another face
-constexpr int kReach = 6;
-constexpr int kApart = 3;
-constexpr int kFringe = 2;  // beside an outline, where the colours of both sides are mixed
-constexpr int kFewest = 4;  // samples; fewer are in the shade of the near face
+constexpr int kApart = 6;  // samples, so that the pattern of a cloth does not go on as stripes
+constexpr int kApartNarrow = 3;  // where the face is too narrow
+constexpr int kEachSide = 2;     // samples
+constexpr int kFringe = 2;       // beside an outline, where the colours of both sides are mixed
+constexpr int kFewest = 4;       // samples; fewer are in the shade of the near face
 
 }  // namespace
 
@@ -30,13 +31,18 @@ FaceColour::FaceColour(const Frame* frame, const BlendedDepth& depth)
 }
 
 std::optional<glm::vec3> FaceColour::around(int x, int y) const {
-    if (image_ == nullptr && video_ == nullptr) return std::nullopt;
+    if (!has_colour()) return std::nullopt;
     const float face_px = elevation_(depth_.index(x, y));
+    for (const int apart : {kApart * unit_, kApartNarrow * unit_})
+        if (const auto mean = mean_around(x, y, face_px, apart)) return mean;
+    return std::nullopt;
+}
+
+std::optional<glm::vec3> FaceColour::mean_around(int x, int y, float face_px, int apart) const {
     glm::vec3 sum(0.0F);
     int count = 0;
-    const int reach = kReach * unit_;
-    for (int dy = -reach; dy <= reach; dy += kApart * unit_) {
-        for (int dx = -reach; dx <= reach; dx += kApart * unit_) {
+    for (int dy = -kEachSide * apart; dy <= kEachSide * apart; dy += apart) {
+        for (int dx = -kEachSide * apart; dx <= kEachSide * apart; dx += apart) {
             if (!is_inside(x + dx, y + dy, face_px)) continue;
             sum += pixel(x + dx, y + dy);
             ++count;

@@ -18,7 +18,15 @@ class FaceColour {
     /// The mean around a pixel of the depth image; nothing where an outline is near on all sides.
     [[nodiscard]] std::optional<glm::vec3> around(int x, int y) const;
 
+    /// Of a pixel of the depth image alone; nothing without colour.
+    [[nodiscard]] std::optional<glm::vec3> at(int x, int y) const {
+        return has_colour() ? std::optional<glm::vec3>(pixel(x, y)) : std::nullopt;
+    }
+
   private:
+    [[nodiscard]] bool has_colour() const { return image_ != nullptr || video_ != nullptr; }
+    [[nodiscard]] std::optional<glm::vec3> mean_around(int x, int y, float face_px,
+                                                       int apart) const;
     [[nodiscard]] bool is_inside(int x, int y, float face_px) const;
     [[nodiscard]] glm::vec3 pixel(int x, int y) const;
 

@@ -14,6 +14,7 @@ namespace {
 constexpr int kMostPasses = 3;  // of vertices along an outline, that take a face from the next
 constexpr int kEndSmoothings = 2;
 constexpr float kSameEnd_units = 30.0F;
+constexpr float kLeastShare = 0.1F;  // of an edge; an outline nearer to a vertex says little beyond
 
 /// Takes a value that is not known yet. Whether it did.
 template <class Value>
@@ -28,6 +29,7 @@ class FaceJoiner {
     FaceJoiner(const CutRelief& relief, Rims& rims)
         : relief_(relief),
           grid_(relief.grid),
+          elevation_(relief.depth),
           colour_(relief.colour, relief.depth),
           same_end_px_(kSameEnd_units * static_cast<float>(outline_unit(relief.depth.from))),
           rims_(rims) {}
@@ -45,6 +47,7 @@ class FaceJoiner {
             for (const OutlineCell& cell : cells) more = complete(cell, rims_) || more;
         }
         smooth_ends();
+        end_at_outlines(cells);
         return cells;
     }
 
@@ -154,8 +157,58 @@ class FaceJoiner {
         }
     }
 
+    /// The outline lies between the drawn vertices: what is drawn there is on the way from the near
+    /// face to the vertex beyond, so that this one goes on with the slope of the face, by least
+    /// squares over the edges to it.
+    void end_at_outlines(const std::vector<OutlineCell>& cells) {
+        struct Sums {
+            float share{kLeastShare}, square{kLeastShare}, inside_px{0.0F};
+        };
+        std::vector<Sums> all(rims_.count());
+        for (const OutlineCell& cell : cells) {
+            for (std::size_t to = 0; to < 4; ++to) {
+                if (cell.face[to] == Face::near) continue;
+                for (std::size_t k = 0; k < 4; ++k) {
+                    if (cell.face[k] != Face::near) continue;
+                    const GridPlace inner = rims_[cell.rims[k]].at;
+                    const float share = outline_between(inner, rims_[cell.rims[to]].at,
+                                                        0.5F * (cell.ends_px.x + cell.ends_px.y));
+                    Sums& sums = all[cell.rims[to]];
+                    sums.share += share;
+                    sums.square += share * share;
+                    sums.inside_px += share * (1.0F - share) * rims_.elevation_px(inner);
+                }
+            }
+        }
+        for (std::uint32_t k = 0; k < rims_.count(); ++k) {
+            Rim& rim = rims_[k];
+            if (!rim.near) continue;
+            const float end_px = (*rim.near * all[k].share - all[k].inside_px) / all[k].square;
+            rim.front = std::clamp(end_px, *rim.near - same_end_px_, *rim.near + same_end_px_);
+        }
+    }
+
+    /// Where the outline lies on the edge to a vertex beyond it, 0: at the first vertex.
+    [[nodiscard]] float outline_between(GridPlace inner, GridPlace outer, float middle_px) const {
+        const glm::ivec2 from{grid_.image_i(inner.i), grid_.image_j(inner.j)};
+        const glm::ivec2 way = glm::ivec2(grid_.image_i(outer.i), grid_.image_j(outer.j)) - from;
+        const int pixels = std::max(std::abs(way.x), std::abs(way.y));
+        float before_px = rims_.elevation_px(inner);
+        for (int k = 1; k <= pixels; ++k) {
+            const glm::ivec2 at = from + way * k / pixels;
+            const float here_px = elevation_(relief_.depth.from.index(at.x, at.y));
+            if (here_px <= middle_px && before_px > middle_px)
+                return (static_cast<float>(k - 1) +
+                        (before_px - middle_px) / (before_px - here_px)) /
+                       static_cast<float>(pixels);
+            before_px = here_px;
+        }
+        return 1.0F;
+    }
+
     const CutRelief& relief_;
     const ReliefGrid& grid_;
+    PixelElevation elevation_;
     FaceColour colour_;
     float same_end_px_;
     Rims& rims_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "render/outline_faces.hpp"
 #include "render/silhouette_fill.hpp"
@@ -11,8 +12,9 @@
 namespace dibhr {
 namespace {
 
-constexpr int kFarUnder = 12;     // rings; what is continued less far is hardly marked
-constexpr float kSameEnd = 0.3F;  // of a step: ends that differ by more are of different faces
+constexpr int kFarUnder = 12;       // rings; what is continued less far is hardly marked
+constexpr float kSameEnd = 0.3F;    // of a step: ends that differ by more are of different faces
+constexpr float kSteepFace = 8.0F;  // px/px; two corners of a face may differ by this
 // The two triangles of a cell by the numbers of its corners.
 constexpr std::array<std::size_t, 6> kTriangles{0, 2, 1, 1, 2, 3};
 
@@ -50,19 +52,12 @@ class LayerMesher {
         : relief_(relief), rims_(rims), numbers_(rims.count()), layers_(layers) {}
 
     void add_cut_cell(const OutlineCell& cell) {
-        for (const std::size_t k : kTriangles) {
-            Numbers& numbers = numbers_[cell.rims[k]];
-            const Rim& rim = rims_[cell.rims[k]];
-            if (cell.face[k] == Face::far)
-                add_in_cell(layers_.behind, numbers.behind_on_own, cell, on_own_face(rim));
-            else
-                add_in_cell(layers_.behind, numbers.behind_on_other, cell,
-                            at_outline(rim, rim.far.value_or(cell.ends_px.x), rim.far_source));
-            if (cell.face[k] == Face::near)
-                add_in_cell(layers_.front, numbers.front_on_own, cell, on_own_face(rim));
-            else
-                add_in_cell(layers_.front, numbers.front_on_other, cell,
-                            at_outline(rim, near_in(cell, rim), rim.near_source));
+        for (std::size_t first = 0; first < kTriangles.size(); first += 3) {
+            const bool one_front = has_one_front(cell, first);
+            for (std::size_t n = first; n < first + 3; ++n) {
+                add_behind(cell, kTriangles[n]);
+                if (one_front) add_front(cell, kTriangles[n]);
+            }
         }
     }
 
@@ -99,13 +94,51 @@ class LayerMesher {
         return made;
     }
 
+    void add_behind(const OutlineCell& cell, std::size_t k) {
+        Numbers& numbers = numbers_[cell.rims[k]];
+        const Rim& rim = rims_[cell.rims[k]];
+        if (cell.face[k] == Face::far)
+            add_in_cell(layers_.behind, numbers.behind_on_own, cell, on_own_face(rim));
+        else
+            add_in_cell(layers_.behind, numbers.behind_on_other, cell,
+                        at_outline(rim, rim.far.value_or(cell.ends_px.x), rim.far_source));
+    }
+
+    void add_front(const OutlineCell& cell, std::size_t k) {
+        Numbers& numbers = numbers_[cell.rims[k]];
+        const Rim& rim = rims_[cell.rims[k]];
+        if (cell.face[k] == Face::near)
+            add_in_cell(layers_.front, numbers.front_on_own, cell, on_own_face(rim));
+        else
+            add_in_cell(layers_.front, numbers.front_on_other, cell,
+                        at_outline(rim, near_in(cell, rim), rim.near_source));
+    }
+
+    /// False: a triangle has corners on a near face and on one between that and the far one, and
+    /// would stand out as a splinter.
+    [[nodiscard]] bool has_one_front(const OutlineCell& cell, std::size_t first) const {
+        float low = std::numeric_limits<float>::max();
+        float high = std::numeric_limits<float>::lowest();
+        for (std::size_t n = first; n < first + 3; ++n) {
+            const std::size_t k = kTriangles[n];
+            const Rim& rim = rims_[cell.rims[k]];
+            const float end_px =
+                cell.face[k] == Face::near ? rims_.elevation_px(rim.at) : cell.ends_px.y;
+            low = std::min(low, end_px);
+            high = std::max(high, end_px);
+        }
+        const float most = std::max(kSameEnd * (cell.ends_px.y - cell.ends_px.x),
+                                    kSteepFace * static_cast<float>(rims_.grid().step));
+        return high - low <= most;
+    }
+
     /// Whether an end of a face around a vertex is the one in the cell, too.
     [[nodiscard]] static bool is_same(const OutlineCell& cell, float around_px, float in_cell_px) {
         return std::abs(around_px - in_cell_px) <= kSameEnd * (cell.ends_px.y - cell.ends_px.x);
     }
     /// A front that was joined to another step's would rise to it; behind, it would leave a gap.
     [[nodiscard]] static float near_in(const OutlineCell& cell, const Rim& rim) {
-        return rim.near && is_same(cell, *rim.near, cell.ends_px.y) ? *rim.near : cell.ends_px.y;
+        return rim.near && is_same(cell, *rim.near, cell.ends_px.y) ? *rim.front : cell.ends_px.y;
     }
 
     /// Cells share a vertex, unless their steps are of different faces.
@@ -138,19 +171,44 @@ class LayerMesher {
             if (!is_under(rims[corner(0)]) && !is_under(rims[corner(1)]) &&
                 !is_under(rims[corner(2)]))
                 continue;
+            const std::array<const Rim*, 3> of{rims[corner(0)], rims[corner(1)], rims[corner(2)]};
+            const Rim* const behind = farthest_of_two(of);
             for (std::size_t n = 0; n < 3; ++n) {
-                if (const Rim* rim = rims[corner(n)]; is_under(rim))
-                    add(layers_.under, numbers_at(*rim).under,
-                        at_outline(*rim, *rim->far, rim->far_source));
-                else
+                if (!is_under(of[n]))
                     add_end_of_fill(corners[corner(n)], under);
+                else if (behind != nullptr)
+                    add_side(*of[n], *behind);
+                else
+                    add(layers_.under, numbers_at(*of[n]).under,
+                        at_outline(*of[n], *of[n]->far, of[n]->far_source));
             }
         }
     }
 
+    /// Where two faces meet under the near one, the farther of them; null: there is one.
+    [[nodiscard]] const Rim* farthest_of_two(const std::array<const Rim*, 3>& corners) const {
+        const Rim* low = nullptr;
+        const Rim* high = nullptr;
+        for (const Rim* const rim : corners) {
+            if (rim == nullptr || !rim->far) continue;
+            if (low == nullptr || *rim->far < *low->far) low = rim;
+            if (high == nullptr || *rim->far > *high->far) high = rim;
+        }
+        return low == nullptr || rims_.is_one_face(*low->far, *high->far) ? nullptr : low;
+    }
+
+    /// The side of a face that ends under the near one looks like what is behind it: nobody knows
+    /// where that face really ends.
+    void add_side(const Rim& rim, const Rim& behind) {
+        LayerVertex made = at_outline(behind, *rim.far, behind.far_source);
+        made.corner = vertex(rim.at);
+        std::uint32_t unshared = 0;
+        add(layers_.under, unshared, made);
+    }
+
     /// Where the fill ends at the near face, so that there is no gap.
     void add_end_of_fill(GridPlace end, const Rim& from) {
-        LayerVertex made = at_outline(from, rims_.elevation_px(end), end);
+        LayerVertex made = at_outline(from, rims_.elevation_px(end), from.far_source);
         made.corner = vertex(end);
         std::uint32_t unshared = 0;
         add(layers_.under, unshared, made);
@@ -178,7 +236,7 @@ void build_layers(const CutRelief& relief, SilhouetteLayers& layers) {
     if (relief.cuts.cells.empty()) return;
     Rims rims(relief);
     const std::vector<OutlineCell> cells = join_faces(relief, rims);
-    fill_under(rims);
+    fill_under(rims, FaceColour(relief.colour, relief.depth));
     LayerMesher mesher(relief, rims, layers);
     for (const OutlineCell& cell : cells) mesher.add_cut_cell(cell);
     mesher.add_cells_under();

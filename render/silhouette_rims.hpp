@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -35,6 +36,7 @@ struct Rim {
     GridPlace at{};
     std::optional<float> far{};         ///< of the face behind, where this vertex is not on it [px]
     std::optional<float> near{};        ///< of the face in front, likewise [px]
+    std::optional<float> front{};       ///< drawn here, so that this face ends at `near` [px]
     std::optional<glm::vec2> faces{};   ///< far and near one, where they end at the outline [px]
     std::optional<glm::vec3> colour{};  ///< of the face behind, where this vertex is not on it
     std::optional<glm::vec3> own_colour{};  ///< of its own face, which is another one's far face
@@ -54,6 +56,7 @@ class Rims {
           eye_(relief.eye),
           columns_(grid_.columns()),
           rows_(grid_.rows()),
+          same_face_px_(kSameFace_units * static_cast<float>(outline_unit(relief.depth.from))),
           numbers_(elevations_.size(), 0) {}
 
     /// The number of the rim at a vertex, which is added if there is none yet.
@@ -103,6 +106,10 @@ class Rims {
         return {static_cast<int>(index % columns), static_cast<int>(index / columns)};
     }
     [[nodiscard]] float elevation_px(GridPlace p) const { return elevations_[index(p)]; }
+    /// Whether two elevations behind a near face are of one face.
+    [[nodiscard]] bool is_one_face(float far_px, float other_px) const {
+        return std::abs(far_px - other_px) <= same_face_px_;
+    }
     [[nodiscard]] const ReliefGrid& grid() const { return grid_; }
     [[nodiscard]] glm::vec2 in_image(GridPlace p) const {
         return {static_cast<float>(grid_.image_i(p.i)), static_cast<float>(grid_.image_j(p.j))};
@@ -116,11 +123,14 @@ class Rims {
     }
 
   private:
+    static constexpr float kSameFace_units = 24.0F;  // what is steeper between neighbours is a step
+
     const ReliefGrid& grid_;
     const std::vector<float>& elevations_;
     glm::vec4 eye_;
     int columns_;
     int rows_;
+    float same_face_px_;
     std::vector<std::uint32_t> numbers_;  // of each vertex, from 1; 0: none
     std::vector<Rim> all_{};
 };

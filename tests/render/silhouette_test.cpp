@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -139,6 +140,62 @@ TEST_CASE("what is seen through a gap over a lower face is continued under the h
         CAPTURE(i);
         CHECK(continued[static_cast<std::size_t>(i)]);
     }
+}
+
+TEST_CASE("where two faces go on under a near one, neither leans over to the other") {
+    const int step = GENERATE(1, 3);
+    const Cut cut(240, 90, step, [](int i, int j) {
+        return i >= 90 ? 220.0 : j < 45 ? 20.0 : 120.0;
+    });
+    REQUIRE_FALSE(cut.layers.under.indices.empty());
+    for (const LayerVertex& vertex : cut.layers.under.vertices) {
+        const float z = vertex.elevation_px;
+        CAPTURE(vertex.corner.i, vertex.corner.j, z);
+        CHECK((std::abs(z - 20.0F) < 15.0F || std::abs(z - 120.0F) < 15.0F || z > 219.0F));
+    }
+}
+
+TEST_CASE("where three faces meet, no triangle of the front stands between two of them") {
+    const int step = GENERATE(1, 3);
+    const Cut cut(240, 90, step, [](int i, int j) {
+        return i >= 91 ? 220.0 : i + j < 100 ? 20.0 : 140.0;
+    });
+    REQUIRE_FALSE(cut.layers.front.indices.empty());
+    for (std::size_t k = 0; k < cut.layers.front.indices.size(); k += 3) {
+        const auto z = [&](std::size_t n) {
+            return cut.layers.front.vertices[cut.layers.front.indices[k + n]].elevation_px;
+        };
+        CHECK(std::max({z(0), z(1), z(2)}) - std::min({z(0), z(1), z(2)}) < 70.0F);
+    }
+}
+
+TEST_CASE("a face that falls to its outline ends evenly there") {
+    constexpr double kEnd = 150.0;
+    constexpr double kFall = 11.0;  // px/px
+    const auto inside = [](double i, double j) { return i - (20.5 + 0.13 * j); };
+    const Cut cut(90, 90, 3, [&](int i, int j) {
+        const double d = inside(i, j);
+        return d < 0.0 ? 20.0 : kEnd + kFall * d;
+    });
+    std::vector<double> ends;
+    const auto& layer = cut.layers.front;
+    for (std::size_t k = 0; k < layer.indices.size(); ++k) {
+        const LayerVertex& a = layer.vertices[layer.indices[k]];
+        const LayerVertex& b = layer.vertices[layer.indices[k - k % 3 + (k + 1) % 3]];
+        const auto place = [&](const LayerVertex& v) {
+            return inside(cut.grid.image_i(v.corner.i), cut.grid.image_j(v.corner.j));
+        };
+        if (!(place(a) > 0.0 && place(b) < 0.0) || a.corner.j < 3 || a.corner.j > 26) continue;
+        const double share = place(a) / (place(a) - place(b));
+        ends.push_back((1.0 - share) * a.elevation_px + share * b.elevation_px);
+    }
+    REQUIRE(ends.size() > 30);
+    const auto count = static_cast<double>(ends.size());
+    const double mean = std::accumulate(ends.begin(), ends.end(), 0.0) / count;
+    CHECK_THAT(mean, WithinAbs(kEnd, kFall));
+    double apart = 0.0;
+    for (const double end : ends) apart += std::abs(end - mean) / count;
+    CHECK(apart < 2.1);
 }
 
 // A disc before a wall: its edge is a ramp of some pixels, as scaled or estimated depth has.
