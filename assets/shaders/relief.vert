@@ -47,6 +47,7 @@ const vec3 kFill = vec3(0.64, -0.10, 0.76);
 const vec3 kGloss = vec3(-0.25, 0.30, 0.92);  // half way between key and eye
 const float kGleam = 60.0;       // how small a highlight is
 const float kShadowReach = 1.3;  // of the dent's radius
+const float kFringe = 2.0;       // px of 640 in a row
 
 vec2 in_image(ivec2 at) { return vec2(min(at * grid_step, image - 1)); }
 
@@ -158,6 +159,12 @@ void main() {
     lifted = vec3((here + 0.5) / vec2(image), z);
 #ifdef TEXTURED
     vec3 at_one = vec3(lifted.xy, 1.0);
+#ifdef SILHOUETTES
+    // Beside an outline the video mixes the colours of both sides: the rim has those further inside.
+    ivec4 sides = min(ivec4(cut & 5, cut & 10, cut & 3, cut & 12), 1);
+    float fringe = min(kFringe * max(float(image.x) / 640.0, 1.0), float(grid_step));
+    at_one.xy += fringe * vec2(sides.xz - sides.yw) / vec2(image);
+#endif
     colour_place = vec2(dot(colour_across, at_one), dot(colour_down, at_one));
 #endif
     vec3 world = vec3(here.x - 0.5 * float(image.x - 1), 0.5 * float(image.y - 1) - here.y, z);
