@@ -21,7 +21,9 @@ float bare_head(Vec3 head, Vec3 side) noexcept {
     const float jaw = ellipsoid(head - Vec3{0.0F, -38.0F, 16.0F}, {58.0F, 70.0F, 64.0F});
     const float face = smooth_min(skull, jaw, 26.0F);
     const float cheek = ellipsoid(side - Vec3{36.0F, -25.0F, 47.0F}, {28.0F, 25.0F, 27.0F});
-    return smooth_min(face, cheek, 26.0F);
+    // Before the ears the head widens to them, or nobody would know what is between face and ear.
+    const float temple = ellipsoid(side - Vec3{50.0F, -20.0F, 3.0F}, {27.0F, 48.0F, 38.0F});
+    return smooth_min(smooth_min(face, cheek, 26.0F), temple, 14.0F);
 }
 
 float nose(Vec3 head, Vec3 side) noexcept {

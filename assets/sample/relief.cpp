@@ -11,7 +11,7 @@ constexpr int kSmallTile = 4;
 /// The lowest level above which a ray as thick as `radius` meets nothing.
 float clear_down_to(const Scene& scene, Vec2 place, float from, float radius,
                     Parts parts) noexcept {
-    const float wall = Scene::wall_level(place);
+    const float wall = Scene::kWallLevel;
     float level = from;
     while (level > wall) {
         const float free = scene.distance({place.x, place.y, level}, parts) * 0.9F - radius;
@@ -55,7 +55,7 @@ Hit cast(const Scene& scene, Vec2 place, float from_level, Parts parts) noexcept
     constexpr int kMaxSteps = 160;
     constexpr float kClose = 0.01F;
     constexpr float kCareful = 1.25F;  // the small relief makes distances inexact: trust none fully
-    const float wall = Scene::wall_level(place);
+    const float wall = Scene::kWallLevel;
     float level = from_level, before = 0.0F, went = 0.0F;
     for (int step = 0; step < kMaxSteps && level > wall; ++step) {
         const float d = scene.distance({place.x, place.y, level}, parts);

@@ -73,7 +73,7 @@ float Scene::distance(Vec3 world, Part part) const noexcept {
         case Part::Wall:
             break;
     }
-    return world.z - wall_level({world.x, world.y});
+    return world.z - kWallLevel;
 }
 
 float Scene::distance(Vec3 world, Parts parts) const noexcept {
@@ -103,11 +103,6 @@ Vec3 Scene::normal(Vec3 world, Part part) const noexcept {
     for (const Vec3 corner : {Vec3{1, -1, -1}, Vec3{-1, -1, 1}, Vec3{-1, 1, -1}, Vec3{1, 1, 1}})
         sum += corner * distance(world + kStep * corner, part);
     return glm::normalize(sum);
-}
-
-float Scene::wall_level(Vec2 place) noexcept {
-    const Vec2 p = place / Vec2{320.0F, 240.0F};
-    return 20.0F + 5.0F * p.x * p.x + 3.0F * p.y * p.y;
 }
 
 }  // namespace dibhr::sample

@@ -38,9 +38,9 @@ class Scene {
     /// Outward, of length 1.
     [[nodiscard]] Vec3 normal(Vec3 world, Part part) const noexcept;
 
-    /// Level of the wall behind the person: everywhere nearer than 0, so nowhere is there a
-    /// bottomless void.
-    [[nodiscard]] static float wall_level(Vec2 place) noexcept;
+    /// Of the wall behind the person: everywhere nearer than 0, so nowhere is there a bottomless
+    /// void; a whole level, since in the light the steps of a curved wall would show.
+    static constexpr float kWallLevel = 20.0F;
 
   private:
     struct Rectangle {
