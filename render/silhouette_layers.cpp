@@ -12,9 +12,10 @@
 namespace dibhr {
 namespace {
 
-constexpr int kFarUnder = 12;       // rings; what is continued less far is hardly marked
-constexpr float kSameEnd = 0.3F;    // of a step: ends that differ by more are of different faces
-constexpr float kSteepFace = 8.0F;  // px/px; two corners of a face may differ by this
+constexpr int kFarUnder = 12;         // rings; what is continued less far is hardly marked
+constexpr float kSameEnd = 0.3F;      // of a step: ends that differ by more are of different faces
+constexpr std::uint8_t kUnlit = 255;  // for a side, whose slope nobody knows
+constexpr float kSteepFace = 8.0F;    // px/px; two corners of a face may differ by this
 // The two triangles of a cell by the numbers of its corners.
 constexpr std::array<std::size_t, 6> kTriangles{0, 2, 1, 1, 2, 3};
 
@@ -53,11 +54,9 @@ class LayerMesher {
 
     void add_cut_cell(const OutlineCell& cell) {
         for (std::size_t first = 0; first < kTriangles.size(); first += 3) {
-            const bool one_front = has_one_front(cell, first);
-            for (std::size_t n = first; n < first + 3; ++n) {
-                add_behind(cell, kTriangles[n]);
-                if (one_front) add_front(cell, kTriangles[n]);
-            }
+            add_behind(cell, first);
+            if (!has_one_front(cell, first)) continue;
+            for (std::size_t n = first; n < first + 3; ++n) add_front(cell, kTriangles[n]);
         }
     }
 
@@ -94,14 +93,41 @@ class LayerMesher {
         return made;
     }
 
-    void add_behind(const OutlineCell& cell, std::size_t k) {
-        Numbers& numbers = numbers_[cell.rims[k]];
+    /// The triangle of three corners from `first` on. From one face to another it is a side.
+    void add_behind(const OutlineCell& cell, std::size_t first) {
+        std::array<LayerVertex, 3> made{};
+        for (std::size_t n = 0; n < 3; ++n) made[n] = behind_at(cell, kTriangles[first + n]);
+        const auto [low, high] = std::minmax_element(
+            made.begin(), made.end(), [](const LayerVertex& a, const LayerVertex& b) {
+                return a.elevation_px < b.elevation_px;
+            });
+        const bool one_face = rims_.is_one_face(low->elevation_px, high->elevation_px);
+        for (std::size_t n = 0; n < 3; ++n) {
+            const std::size_t k = kTriangles[first + n];
+            Numbers& numbers = numbers_[cell.rims[k]];
+            std::uint32_t unshared = 0;
+            std::uint32_t& shared =
+                cell.face[k] == Face::far ? numbers.behind_on_own : numbers.behind_on_other;
+            if (one_face)
+                add_in_cell(layers_.behind, shared, cell, made[n]);
+            else
+                add(layers_.behind, unshared, side_of(made[n], *low));
+        }
+    }
+
+    [[nodiscard]] LayerVertex behind_at(const OutlineCell& cell, std::size_t k) const {
         const Rim& rim = rims_[cell.rims[k]];
-        if (cell.face[k] == Face::far)
-            add_in_cell(layers_.behind, numbers.behind_on_own, cell, on_own_face(rim));
-        else
-            add_in_cell(layers_.behind, numbers.behind_on_other, cell,
-                        at_outline(rim, rim.far.value_or(cell.ends_px.x), rim.far_source));
+        if (cell.face[k] == Face::far) return on_own_face(rim);
+        return at_outline(rim, rim.far.value_or(cell.ends_px.x), rim.far_source);
+    }
+
+    /// The side of a face that ends behind looks like what is behind it: nobody knows where that
+    /// face really ends.
+    [[nodiscard]] static LayerVertex side_of(LayerVertex made, const LayerVertex& behind) {
+        made.source = behind.source;
+        made.fill = behind.fill;
+        made.fill[3] = kUnlit;
+        return made;
     }
 
     void add_front(const OutlineCell& cell, std::size_t k) {
@@ -174,15 +200,19 @@ class LayerMesher {
             const std::array<const Rim*, 3> of{rims[corner(0)], rims[corner(1)], rims[corner(2)]};
             const Rim* const behind = farthest_of_two(of);
             for (std::size_t n = 0; n < 3; ++n) {
+                std::uint32_t unshared = 0;
                 if (!is_under(of[n]))
                     add_end_of_fill(corners[corner(n)], under);
                 else if (behind != nullptr)
-                    add_side(*of[n], *behind);
+                    add(layers_.under, unshared, side_of(under_at(*of[n]), under_at(*behind)));
                 else
-                    add(layers_.under, numbers_at(*of[n]).under,
-                        at_outline(*of[n], *of[n]->far, of[n]->far_source));
+                    add(layers_.under, numbers_at(*of[n]).under, under_at(*of[n]));
             }
         }
+    }
+
+    [[nodiscard]] static LayerVertex under_at(const Rim& rim) {
+        return at_outline(rim, *rim.far, rim.far_source);
     }
 
     /// Where two faces meet under the near one, the farther of them; null: there is one.
@@ -195,15 +225,6 @@ class LayerMesher {
             if (high == nullptr || *rim->far > *high->far) high = rim;
         }
         return low == nullptr || rims_.is_one_face(*low->far, *high->far) ? nullptr : low;
-    }
-
-    /// The side of a face that ends under the near one looks like what is behind it: nobody knows
-    /// where that face really ends.
-    void add_side(const Rim& rim, const Rim& behind) {
-        LayerVertex made = at_outline(behind, *rim.far, behind.far_source);
-        made.corner = vertex(rim.at);
-        std::uint32_t unshared = 0;
-        add(layers_.under, unshared, made);
     }
 
     /// Where the fill ends at the near face, so that there is no gap.
