@@ -34,8 +34,9 @@ constexpr double kNearBehind_s = 2.0;  ///< a seek back by less is a step: more 
 constexpr double kFewFrames = 3.0;     ///< directly before the wanted frame none is skipped
 constexpr double kAllFrames = 1e9;
 constexpr int kSmallPixels = 1280 * 720;  ///< up to here the processors are quick enough
-constexpr double kHalf = 0.5;       ///< of the pictures of an H.264 video may be non-reference
-constexpr double kLongest_s = 1e6;  ///< bounds a seek into a file of unknown length
+constexpr double kHalf = 0.5;  ///< of the pictures of an H.264 video may be non-reference
+constexpr std::uintmax_t kQuicklyRead = 64 << 20;  ///< bytes of a file read for its packets' times
+constexpr double kLongest_s = 1e6;                 ///< bounds a seek into a file of unknown length
 
 }  // namespace
 
@@ -57,6 +58,7 @@ VideoFile::VideoFile(const std::filesystem::path& file, PictureRole role, int tr
     require_size(file, facts_.columns, facts_.rows);
     require_whole(file, track, header_duration_s);
     header_duration_s_ = header_duration_s;
+    if (!decoder_.packets().counts_frames()) list_frames();
     if (role == PictureRole::depth) read_azure_kinect();
 }
 
@@ -198,23 +200,42 @@ cv::Mat VideoFile::retrieve() {
 
 void VideoFile::update_facts() {
     const auto known = static_cast<std::int64_t>(times_.size());
+    if (!facts_.frames_exact) facts_.frames = std::max(facts_.frames, known);
+    if (!facts_.frames_exact && listed_s_.size() >= 2) return;  // the packets say more
     const double span = times_.back() - times_.front();
     if (known >= 2 && span > 0.0) facts_.frames_per_s = static_cast<double>(known - 1) / span;
     const double last_interval =
         known >= 2 ? times_.back() - times_[times_.size() - 2] : interval_s_;
     const double end_s = times_.back() + last_interval;
     facts_.duration_s = facts_.frames_exact ? end_s : std::max(facts_.duration_s, end_s);
-    if (!facts_.frames_exact) facts_.frames = std::max(facts_.frames, known);
+}
+
+/// By its packets; a larger file would take too long to read.
+void VideoFile::list_frames() {
+    std::error_code unknown;
+    const std::uintmax_t bytes = std::filesystem::file_size(facts_.file, unknown);
+    if (!unknown && bytes <= kQuicklyRead) listed_s_ = picture_times_s();
+    const std::vector<double>& all_s = listed_s_;
+    if (all_s.size() < 2) return;
+    facts_.frames = static_cast<std::int64_t>(all_s.size());
+    facts_.frames_per_s = static_cast<double>(all_s.size() - 1) / (all_s.back() - all_s.front());
+    facts_.duration_s = 2.0 * all_s.back() - all_s[all_s.size() - 2];
 }
 
 void VideoFile::place_at(double time_s) {
-    const auto at = std::lower_bound(times_.begin(), times_.end(), time_s - kTimeTolerance_s);
-    index_exact_ = at != times_.end();
-    if (index_exact_) {
-        index_ = at - times_.begin();
+    const auto place_in = [time_s](const std::vector<double>& all_s) {
+        return std::lower_bound(all_s.begin(), all_s.end(), time_s - kTimeTolerance_s) -
+               all_s.begin();
+    };
+    index_ = place_in(times_);
+    index_exact_ = index_ < static_cast<std::int64_t>(times_.size());
+    if (index_exact_) return;
+    // Behind a gap: by the packets, else an estimate, until the gap is read.
+    const auto listed = static_cast<std::int64_t>(place_in(listed_s_));
+    if (listed < static_cast<std::int64_t>(listed_s_.size())) {
+        index_ = std::max(listed, index_);
         return;
     }
-    // Behind a gap: an estimate until the gap is read.
     const double frames_on = std::round((time_s - times_.back()) * facts_.frames_per_s);
     index_ = static_cast<std::int64_t>(times_.size()) - 1 +
              std::max<std::int64_t>(1, static_cast<std::int64_t>(frames_on));

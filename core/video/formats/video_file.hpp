@@ -75,6 +75,7 @@ class VideoFile : public PictureSource {
     bool run_up_to(double wanted_s, std::optional<TimedPicture> shown_then);
     [[nodiscard]] bool skipped_until(double time_s) const;
     void place_at(double time_s);  ///< index of a frame reached by a jump
+    void list_frames();            ///< their number and times, without decoding them
     void update_facts();           ///< rate and duration, from the times read so far
 
     SourceFacts facts_{};
@@ -90,6 +91,7 @@ class VideoFile : public PictureSource {
     std::size_t from_ring_{0};  ///< place of the frame that grab() gives next; its end: none
     std::deque<TimedPicture> ahead_{};  ///< decoded already, given out next
     std::vector<double> times_{};       ///< of all frames from the first up to a gap
+    std::vector<double> listed_s_{};    ///< of all frames, by their packets; empty: not listed
     double header_duration_s_{0.0};     ///< duration by the container's header
     double decoding_s_{0.0};            ///< mean time to decode a frame
     double passing_s_{0.0};             ///< mean time to pass over a frame; 0: not known

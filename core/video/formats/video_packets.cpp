@@ -106,6 +106,13 @@ double VideoPackets::length_s() const noexcept {
     return of_header ? duration_s - static_cast<double>(start()) * unit_s() : duration_s;
 }
 
+bool VideoPackets::counts_frames() const noexcept {
+    constexpr double kAgree = 0.02;
+    const auto count = static_cast<double>(stream_->nb_frames);
+    return count > 0.0 &&
+           std::abs(length_s() * frames_per_s() - count) <= std::max(2.0, kAgree * count);
+}
+
 std::int64_t VideoPackets::frames() const noexcept {
     if (stream_->nb_frames > 0) return stream_->nb_frames;
     const double frames = std::round(length_s() * frames_per_s());

@@ -25,7 +25,9 @@ class VideoPackets {
     [[nodiscard]] AVStream* stream() const noexcept { return stream_; }
     /// Pictures a second, as far as the file states it; 0: not stated.
     [[nodiscard]] double frames_per_s() const noexcept;
-    /// The container's frame count, an estimate; 0: not stated.
+    /// Whether the container states how many frames there are, and its rate and duration agree.
+    [[nodiscard]] bool counts_frames() const noexcept;
+    /// The container's frame count, else an estimate; 0: not known.
     [[nodiscard]] std::int64_t frames() const noexcept;
 
     /// When the track begins by the clock of its file [s], known once a packet was read; NaN when

@@ -49,6 +49,7 @@ cv::Mat VideoFile::first_in_colour() {
 
 /// A file without any times has the times that grab() gives: one interval after the other.
 std::vector<double> VideoFile::picture_times_s() const {
+    if (!listed_s_.empty()) return listed_s_;
     std::vector<double> times_s = packet_times_s(facts_.file, track_);
     const auto unknown = std::count_if(times_s.begin(), times_s.end(),
                                        [](double time_s) { return std::isnan(time_s); });

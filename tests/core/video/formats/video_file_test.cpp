@@ -563,6 +563,31 @@ TEST_CASE("a film that was cut without coding it again begins at 0, and counts w
     }
 }
 
+TEST_CASE("frames that are unevenly spaced are counted and numbered before all was decoded",
+          "[media]") {
+    const TemporaryFolder folder;
+    const std::string uneven = "select='lt(mod(n,30),7)+eq(mod(n,30),20)'";
+    const auto [name, encoding] = GENERATE(table<std::string, std::string>(
+        {{"uneven.webm", kVp9}, {"uneven.mkv", kLossless}, {"uneven.mp4", kH264}}));
+    CAPTURE(name);
+    make_flat_clip(folder / name, 80, 25, encoding, uneven);
+    const auto media = open_depth(folder / name);
+    const MediaDescription opened = media->description();
+    CHECK(opened.frames == 80);
+    CHECK(opened.frames_per_s < 10.0);
+    media->seek(opened.duration_s);
+    CHECK(media->next()->index == 79);
+    std::vector<double> times_s;
+    const auto whole = open_depth(folder / name);
+    while (const auto frame = whole->next()) times_s.push_back(frame->media_s);
+    REQUIRE(times_s.size() == 80);
+    for (const std::size_t k : {70U, 9U, 44U}) {
+        const auto again = open_depth(folder / name);
+        again->seek(times_s[k]);
+        CHECK(again->next()->index == static_cast<std::int64_t>(k));
+    }
+}
+
 TEST_CASE("a file of a colour and a depth track is opened as both, whichever comes first",
           "[media]") {
     const TemporaryFolder folder;
