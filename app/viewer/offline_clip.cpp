@@ -12,7 +12,6 @@ namespace dibhr {
 namespace {
 
 constexpr double kUsualTick_s = 0.001;
-constexpr double kWarmUp_s = 1.0;  // of a session that is shown from its middle on
 
 }  // namespace
 
@@ -57,7 +56,7 @@ SessionMotion::SessionMotion(std::unique_ptr<OpenedSession> opened, const GivenP
       given_(given),
       replay_(opened_->session, *opened_->frames.surfaces,
               {[this](TouchParameters& parameters) { given_.apply(parameters); }},
-              opened_->session.begin_s() + std::max(from_s - kWarmUp_s, 0.0)),
+              warm_up_s(opened_->session, opened_->session.begin_s() + from_s)),
       waits_(replay_.next()) {
     touch_.replay.emplace();
     if (!opened_->session.parameters().empty())

@@ -76,7 +76,7 @@ class GoalMotion final : public ClipMotion {
 class SessionMotion final : public ClipMotion {
   public:
     /// `given` replaces recorded parameters. Nothing before `from_s` is shown. In the middle of a
-    /// session, ticks are computed from a second before, as in the window.
+    /// session, ticks are computed from before it, as in the window: see warm_up_s().
     SessionMotion(std::unique_ptr<OpenedSession> opened, const GivenParameters& given,
                   double from_s);
 

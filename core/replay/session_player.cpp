@@ -20,7 +20,6 @@ namespace {
 
 constexpr double kTicksAhead = 400.0;  // at speed 1: longer than decoding a frame takes
 constexpr std::size_t kBatch = 25;
-constexpr double kWarmUp_s = 1.0;
 
 /// What is computed for each moment.
 struct ComputedRuns {
@@ -36,8 +35,8 @@ class SessionMoments {
     /// `opened` must outlive it.
     explicit SessionMoments(OpenedSession& opened) : opened_(opened) {}
 
-    /// The next moment will be the first tick at or after `from_s`. Computed runs begin a second
-    /// earlier, so that the proxy has found its place.
+    /// The next moment will be the first tick at or after `from_s`. Computed runs begin earlier, so
+    /// that the proxy has found its place.
     void begin(double from_s, const ComputedRuns& runs) {
         std::vector<ParameterChange> changes;
         const std::optional<TouchParameters>& other = runs.other;
@@ -53,7 +52,7 @@ class SessionMoments {
         runs_ = runs;
         from_s_ = from_s;
         replay_.emplace(opened_.session, *opened_.frames.surfaces, std::move(changes),
-                        runs.any() ? from_s - kWarmUp_s : from_s);
+                        runs.any() ? warm_up_s(opened_.session, from_s) : from_s);
     }
 
     /// Nothing after the last one, or when cancelled before the proxy had found its place. Throws

@@ -85,8 +85,8 @@ class SessionPlayer final : public Transport {
     void set_speed(double speed) override;
     /// Computes all ticks with these parameters from now on; nothing: as recorded.
     void compute(const std::optional<TouchParameters>& other);
-    /// Whether the other algorithms' proxies are computed, too. They begin a second before the
-    /// present moment, or before the target of a jump.
+    /// Whether the other algorithms' proxies are computed, too. They begin before the present
+    /// moment, or before the target of a jump: see warm_up_s().
     void compare(bool algorithms);
 
     /// Once a turn of the window, at its time: advances to the last moment that is due, and calls

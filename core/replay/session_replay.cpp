@@ -15,6 +15,8 @@ namespace dibhr {
 namespace {
 
 constexpr std::size_t kMostKept = std::size_t{1} << 16;  // half a megabyte, of over a minute
+constexpr double kWarmUp_s = 1.0;
+constexpr double kLongestWarmUp_s = 10.0;  // a person waits for it
 constexpr int kNameWidth = 14;
 constexpr int kCellWidth = 10;
 
@@ -27,6 +29,15 @@ std::string cell(double value) {
 }
 
 }  // namespace
+
+double warm_up_s(const Session& session, double from_s) {
+    const std::int64_t latest = session.tick_at(from_s - kWarmUp_s);
+    const std::int64_t earliest = session.tick_at(from_s - kLongestWarmUp_s);
+    auto query = session.reader().rows("SELECT t FROM tick WHERE NOT contact AND tick BETWEEN " +
+                                       std::to_string(earliest) + " AND " + std::to_string(latest) +
+                                       " ORDER BY tick DESC LIMIT 1");
+    return query.next() ? query.real(0) : from_s - kLongestWarmUp_s;
+}
 
 SessionReplay::SessionReplay(const Session& session, RecordedSurfaces& frames,
                              std::vector<ParameterChange> changes, double from_s)

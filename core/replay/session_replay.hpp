@@ -64,6 +64,11 @@ class RecordedFrames : public RecordedSurfaces {
 /// Makes the parameters of a run from those recorded.
 using ParameterChange = std::function<void(TouchParameters&)>;
 
+/// When runs begin so that their proxies are in place at `from_s`: a second before it, or where the
+/// hand was free last before that, as the place of a proxy in contact depends on its whole way
+/// since it touched; at most ten seconds before it. [s]
+[[nodiscard]] double warm_up_s(const Session& session, double from_s);
+
 /// Several runs side by side, each with its own proxy; every frame is decoded once. With the
 /// recorded parameters a run gives the recorded bits, unless ticks are missing.
 class SessionReplay {

@@ -68,6 +68,8 @@ class Session {
     [[nodiscard]] double end_s() const noexcept { return end_s_; }      ///< the last one's
     /// The wall time since 1970 at a time of the ticks; nothing: none was recorded until then.
     [[nodiscard]] std::optional<double> utc_at(double t_s) const;
+    /// From which number on ticks are at or after that time; one past the last if there are none.
+    [[nodiscard]] std::int64_t tick_at(double t_s) const;
     /// From the first reading of the wall clock to the last; nothing: there are not two.
     [[nodiscard]] std::optional<ClockDrift> drift() const;
     /// How many ticks are missing between the first and the last.
@@ -99,8 +101,6 @@ class Session {
     void keep(std::size_t bytes);
     /// The time of the first tick of that number or a later one.
     [[nodiscard]] double time_from(std::int64_t tick) const;
-    /// The number of the first tick at or after that time; one past the last if there is none.
-    [[nodiscard]] std::int64_t tick_at(double t_s) const;
 
     SessionReader reader_;
     SessionFacts facts_{};

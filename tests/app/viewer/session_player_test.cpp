@@ -377,7 +377,7 @@ TEST_CASE("beside other parameters the recorded algorithm's proxy is where it wa
     CHECK(arrival(player).others.empty());
 }
 
-TEST_CASE("after a jump other parameters are computed from a second earlier, and shown when ready",
+TEST_CASE("after a jump other parameters are computed from earlier on, and shown when ready",
           "[player]") {
     const Recorded& recorded = recorded_once();
     const std::vector<TickRecord> ticks = recorded.ticks();
@@ -396,6 +396,33 @@ TEST_CASE("after a jump other parameters are computed from a second earlier, and
     CHECK_FALSE(preview.computed);
     CHECK(preview.tick.tick == ticks[400].tick);
     CHECK(same_bits(*passed.back().computed, ticks[400]));
+}
+
+TEST_CASE("after a jump into a long contact other parameters are computed from its begin",
+          "[player]") {
+    const Recorded recorded;
+    const std::filesystem::path file = recorded.folder / "long.dibhr";
+    record_session(file, {.colour = recorded.folder / "film_color.mkv",
+                          .depth = recorded.folder / "film_depth.mkv",
+                          .seconds = 6.0,
+                          .jumps = true});
+    std::vector<TickRecord> ticks;
+    const Session session(file);
+    Session::Ticks rows(session);
+    for (TickRecord tick; rows.next(tick);) ticks.push_back(tick);
+    SessionPlayer player(Recorded::open(file));
+    player.pause();
+    player.compute(session.parameters().front().touch);
+    for (const int at : {1450, 2150, 2850}) {  // the friction changes at 3000
+        REQUIRE(std::all_of(ticks.begin() + at - 1100, ticks.begin() + at + 1,
+                            [](const TickRecord& tick) { return tick.contact; }));
+        player.seek(ticks[at].t_s);
+        play_until(player, [&](const auto& moments) {
+            return !moments.empty() && moments.back().tick.tick == ticks[at].tick &&
+                   moments.back().computed;
+        });
+        CHECK(same_bits(*player.moment()->computed, ticks[at]));
+    }
 }
 
 TEST_CASE("a film that has changed or is gone, and a session without ticks, are told when opened",
