@@ -233,6 +233,10 @@ void SessionReader::check_kind() const {
                              "written, also into " +
                              log + "; record it again");
     }
+    if (application == kStudyApplicationId)
+        throw InputError(file_.string() +
+                         ": holds a participant's answers, and is no session; give it to "
+                         "dibhr study report");
     if (application != kSessionApplicationId) refuse("another program's database");
 }
 

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "core/sqlite/application_ids.hpp"
+
 namespace dibhr {
 
-/// "dhap": identifies the file as a session (`PRAGMA application_id`).
-inline constexpr int kSessionApplicationId = 0x64686170;
 /// Counts changes of the tables (`PRAGMA user_version`, and `schema_version` in table session).
 /// FORMAT.md states every schema that there was, and what a change must keep.
 inline constexpr int kSessionSchemaVersion = 4;

@@ -9,13 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "core/sqlite/application_ids.hpp"
 #include "core/study/protocol.hpp"
 #include "core/study/trial.hpp"
 
 namespace dibhr {
 
-/// "dhst": marks the file as a study (`PRAGMA application_id`).
-inline constexpr int kStudyApplicationId = 0x64687374;
 /// Counts changes of the tables (`PRAGMA user_version`).
 inline constexpr int kStudySchemaVersion = 2;
 /// "P07.dibhr-study".

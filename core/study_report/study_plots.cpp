@@ -211,12 +211,14 @@ Canvas plot_threshold(const ThresholdFinding& finding, const std::string& title,
         std::isfinite(finding.median.value) && finding.fits.size() >= kFewestForRanks;
     const Estimate& of_people = has_median ? finding.median : finding.participants_mean;
     const Interval interval = alone ? finding.fits.front().fit.threshold : of_people.interval;
+    const double confidence = alone ? kConfidence : of_people.confidence;
+    const bool has_interval = std::isfinite(interval.low) || std::isfinite(interval.high);
     const double threshold = alone ? first.threshold : of_people.value;
     const double height = first.share(first.threshold);  // half of what is not guessed nor lapsed
     if (std::isfinite(threshold)) {
         const Vec2 at = axes.at(threshold, height);
         canvas.clip_to(kArea);
-        if (std::isfinite(interval.low) || std::isfinite(interval.high))
+        if (has_interval)
             canvas.line({axes.at(std::max(interval.low, span.low), height).x, at.y},
                         {axes.at(std::min(interval.high, span.high), height).x, at.y},
                         {style_of(Algorithm::pga).stroke.ink, 4.0});
@@ -225,10 +227,13 @@ Canvas plot_threshold(const ThresholdFinding& finding, const std::string& title,
         canvas.clip_to_whole();
     }
     axes.draw_frame(canvas);
-    draw_legend(canvas, {kArea.right - 330.0, kArea.bottom - 104.0},
-                {{"answers, all participants", {kTextInk, 1.5}, Marker::circle},
-                 {alone ? "fitted" : "fitted, one each", {found_ink(), 2.5}, Marker::none},
-                 {"threshold, 95 %", {style_of(Algorithm::pga).stroke.ink, 4.0}, Marker::none}});
+    draw_legend(
+        canvas, {kArea.right - 330.0, kArea.bottom - 104.0},
+        {{"answers, all participants", {kTextInk, 1.5}, Marker::circle},
+         {alone ? "fitted" : "fitted, one each", {found_ink(), 2.5}, Marker::none},
+         {has_interval ? "threshold, " + short_text(100.0 * confidence, 3) + " %" : "threshold",
+          {style_of(Algorithm::pga).stroke.ink, 4.0},
+          Marker::none}});
     return canvas;
 }
 

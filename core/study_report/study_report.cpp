@@ -118,7 +118,7 @@ void draw_thresholds(const Drawing& drawing, const BlockFindings& found) {
                 item_picture(found.block, "threshold", finding.item), title,
                 "Share of right answers (of yes) over the difference: circles are answers at "
                 "levels near to each other, the larger the more, with exact 95 % intervals; the "
-                "bar is the threshold's 95 % interval.",
+                "bar is the threshold's interval.",
                 plot_threshold(finding, title, subtitle));
         }
         if (!drawing.block(found).variation.staircase || finding.all.empty()) continue;

@@ -50,13 +50,13 @@ LiveFeed::LiveFeed(std::filesystem::path colour, std::filesystem::path depth, No
     if (two_streams_) {
         require_camera(live_name(colour_), colour_);
         colour_stream_ = std::make_unique<LiveStream>(
-            live_name(colour_), in_quotes(public_name(colour_), kLongestName),
+            live_name(colour_), in_quotes(shown_source(colour_), kLongestName),
             [this](LivePicture picture) { return take(std::move(picture), Role::colour); },
             [this] { take_permanent_error(); });
         colour_stream_->set_outputs(true, false);
     }
     depth_stream_ = std::make_unique<LiveStream>(
-        std::move(depth_name), in_quotes(public_name(depth_), kLongestName),
+        std::move(depth_name), in_quotes(shown_source(depth_), kLongestName),
         [this](LivePicture picture) { return take(std::move(picture), Role::depth); },
         [this] { take_permanent_error(); });
 }

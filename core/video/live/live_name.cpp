@@ -129,6 +129,10 @@ std::string public_name(const std::filesystem::path& place) {
     return name;
 }
 
+std::string shown_source(const std::filesystem::path& place) {
+    return place == "-" ? "standard input" : public_name(place);
+}
+
 LiveName live_name(const std::filesystem::path& place) {
     const std::string& name = place.native();
     const std::string_view text = name;

@@ -30,6 +30,8 @@ struct LiveName {
 
 /// The name as others may read it: without a user and a password before the host.
 [[nodiscard]] std::string public_name(const std::filesystem::path& place);
+/// The same as the window shows it: "-" is "standard input".
+[[nodiscard]] std::string shown_source(const std::filesystem::path& place);
 
 /// A camera's name may end with `?size=640x480&rate=30`. Throws InputError for any other name, and
 /// for a stream without the port that it needs.

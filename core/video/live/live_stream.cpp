@@ -73,8 +73,10 @@ bool LiveStream::connect() {
         }
         if (once && !control_.stopping)
             throw LivePermanentError(
-                shown_ + (picture_received_ ? " has ended" : " ended without a picture") +
-                ": let the program that writes into it go on");
+                shown_ + (picture_received_
+                              ? " has ended: start dibhr again to see more of it"
+                              : " ended without a picture: let the program that writes into it "
+                                "send a video"));
     } catch (const LivePermanentError& refusal) {
         set_trouble(refusal.what());
         on_permanent_error_();

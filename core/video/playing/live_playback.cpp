@@ -63,7 +63,10 @@ std::string signal_in_words(const LiveStatus& live) {
 std::string in_words(const LiveStatus& live) {
     if (live.signal) return number_text(kMilliseconds * live.behind_s, 0) + " ms behind";
     std::string words = signal_in_words(live);
-    if (!live.format_changed) words += " for " + number_text(live.silent_s, 0) + " s: waiting";
+    if (live.ended && !live.trouble.empty())
+        words = live.trouble;
+    else if (!live.format_changed)
+        words += " for " + number_text(live.silent_s, 0) + " s: waiting";
     return words + (live.force_off ? ", the force is off" : "");
 }
 
@@ -286,7 +289,7 @@ FrameWindow LivePlayback::window() const {
 LiveStatus LivePlayback::status(Time now) const {
     const LiveSignal signal = feed_->signal();
     LiveStatus status;
-    status.from = public_name(description().depth_path);
+    status.from = shown_source(description().depth_path);
     status.behind_s = behind_s_;
     status.dropped = dropped_;
     status.arrives_per_s = frames_.size() > 1 ? 1.0 / clock_.interval_s() : 0.0;
@@ -295,6 +298,7 @@ LiveStatus LivePlayback::status(Time now) const {
     status.force_off = force_off_;
     status.format_changed = signal.format_changed;
     status.trouble = signal.trouble;
+    status.ended = signal.permanent_error;
     status.opened = opened_;
     status.media = frames_.empty() ? 0 : frames_.front().media;
     const MotionThrottle& throttle = assembly_.throttle();

@@ -22,6 +22,7 @@ struct LiveStatus {
     bool force_off{false};       ///< because the surface moved when the signal was lost
     bool format_changed{false};  ///< the pictures changed size or kind: open the source again
     std::string trouble{};       ///< why it cannot be reached; empty: no data arrives
+    bool ended{false};           ///< waiting for data does not help
     std::uint32_t opened{0};     ///< number given when it was opened
     std::uint32_t media{0};      ///< number that all frames carry; 0: no frames yet
     DepthNoise noise{};          ///< measured in the first pictures

@@ -519,6 +519,8 @@ TEST_CASE("files that are no session are refused by every command in one line", 
     write_text(folder / "text.dibhr", "t,x,y,z\n");
     write_text(folder / "empty.dibhr", "");
     run_shell(folder, "sqlite3 other.dibhr 'CREATE TABLE a(b)'");
+    run_shell(folder,
+              "sqlite3 P07.dibhr-study 'PRAGMA application_id = 1684566900; CREATE TABLE a(b)'");
     std::string damaged = good;
     std::fill(damaged.begin() + kHead, damaged.end(), 'x');
     write_text(folder / "damaged.dibhr", damaged);
@@ -529,6 +531,7 @@ TEST_CASE("files that are no session are refused by every command in one line", 
                                                               {"text.dibhr", "no SQLite file"},
                                                               {"empty.dibhr", "empty"},
                                                               {"other.dibhr", "another program"},
+                                                              {"P07.dibhr-study", "study report"},
                                                               {"damaged.dibhr", "damaged"},
                                                               {"none.dibhr", "no such file"}}) {
             std::vector<std::string> arguments = command;

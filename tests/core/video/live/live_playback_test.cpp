@@ -127,6 +127,12 @@ TEST_CASE("a signal that is lost while it moves takes the force off within 250 m
     CHECK(contains(words, "No signal from"));
     CHECK(contains(words, "for 10 s"));
     CHECK(contains(words, "the force is off") == moves);
+    LiveStatus ended = playback.status(bench.now());
+    ended.ended = true;
+    ended.trouble = "'standard input' has ended";
+    CHECK(in_words(ended).starts_with(ended.trouble));
+    CHECK_FALSE(contains(in_words(ended), "waiting"));
+    CHECK(contains(in_words(ended), "the force is off") == moves);
     pass(bench, 0.001, {.sent_s = in_time});
     CHECK(playback.status(bench.now()).signal);
     CHECK_FALSE(playback.window().silent);
