@@ -23,7 +23,8 @@ struct LayerVertex {
     float elevation_px{0.0F};  ///< without bumps
     float far_px{0.0F};   ///< of the faces here; a fragment nearer to far than to near is beyond
     float near_px{0.0F};  ///< the outline
-    std::array<std::uint8_t, 4> fill{};  ///< red, green, blue continued from behind; 255: far under
+    std::array<std::uint8_t, 4> fill{};  ///< red, green, blue from behind; 255: no light
+                                         ///< of its own, as far under or at a side
 };
 
 struct SilhouetteLayer {

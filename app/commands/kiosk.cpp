@@ -35,7 +35,7 @@ void add_kiosk_options(CLI::App& app, std::optional<KioskOptions>& kiosk) {
         ->allow_extra_args(false)
         ->needs(on);
     add_number_option(app, "--return-after", kShortest_s, kLongest_s,
-                      "A kiosk without touch goes back to its start after so many seconds",
+                      "A kiosk that nobody uses goes back to its start after so many seconds",
                       [&kiosk](double seconds) { begun(kiosk).return_s = seconds; })
         ->type_name("S")
         ->default_str("60")

@@ -95,7 +95,8 @@ bool prepare_one(const PrepareOptions& options, const std::string& recording,
     }
     if (!made) return false;
     std::cout << one_line(recording) << ": " << made->frames
-              << (made->was_kept ? " frames were prepared before, " : " frames prepared, ")
+              << (made->frames == 1 ? " frame" : " frames")
+              << (made->was_kept ? " prepared before, " : " prepared, ")
               << megabytes_text(made->bytes) << '\n';
     if (made->removed > 0)
         std::cout << made->removed

@@ -99,7 +99,8 @@ std::string text_of(const std::vector<double>& levels) {
 }
 
 std::string text_of(const DepthRange& range) {
-    return number_text(range.near) + ":" + number_text(range.far);
+    constexpr int kDigits = 7;  // more than a person types: a range turned round was computed
+    return short_text(range.near, kDigits) + ":" + short_text(range.far, kDigits);
 }
 
 std::string text_of(double number) {
@@ -262,8 +263,10 @@ void draw_depth_line(ViewerState& state) {
     if (!state.media.meaning) return;
     const std::string line = depth_line(*state.media.meaning, ImGui::GetContentRegionAvail().x);
     const ImVec2 begin = ImGui::GetCursorPos();
-    if (item::invisible_button("depth line", ImGui::CalcTextSize(line.c_str()), line))
+    if (item::invisible_button("depth line", ImGui::CalcTextSize(line.c_str()), line)) {
+        fill_depth_fields(state);  // without what was refused
         ImGui::OpenPopup(kRowsPopup);
+    }
     add_tooltip((in_words(*state.media.meaning) + "; click to change what the depth's levels mean")
                     .c_str());
     if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);

@@ -102,7 +102,7 @@ const FolderEntry* chosen_of(const OpenDialog& dialog) {
     return row ? &entry_in(dialog, *row) : nullptr;
 }
 
-/// Opens the chosen row, else the typed path, or the first row that matches the typed text.
+/// Opens the typed path, or the chosen row, else the first one that matches the typed text.
 void enter(ViewerState& state) {
     OpenDialog& dialog = state.ui.dialog;
     const std::string typed = dialog.typed.data();
@@ -111,10 +111,9 @@ void enter(ViewerState& state) {
         if (chosen != nullptr) open(state, *chosen);
         return;
     }
-    if (chosen == nullptr && !dialog.rows.entries.empty() && !is_path(typed))
-        chosen = &entry_in(dialog, 0);
+    if (chosen == nullptr && !dialog.rows.entries.empty()) chosen = &entry_in(dialog, 0);
     TypedFile file{typed, {}};
-    if (chosen != nullptr) file.chosen = *chosen;
+    if (chosen != nullptr && !is_path(typed)) file.chosen = *chosen;
     state.commands.push(file);
 }
 
@@ -176,6 +175,8 @@ void draw_line(ViewerState& state) {
         true);
     if (ImGui::IsItemActive()) dialog.pictures_to_focus = 0;
     ImGui::PopID();
+    if (!dialog.refused.empty() && dialog.refused == dialog.typed.data())
+        draw_warning("There is no such file or folder: check what is typed");
 }
 
 void move_choice(OpenDialog& dialog) {

@@ -373,7 +373,8 @@ void draw_overlay(const ViewerState& state, double now_s) {
         const double left_s = state.ui.notice_until_s - now_s;
         const std::string text =
             state.ui.notice_shows_position ? position_text(state) : state.ui.notice;
-        centred_label(state, text, 1.5F, static_cast<float>(std::min(1.0, left_s)));
+        const float lines = state.ui.lead ? 2.6F : 1.5F;  // above its steps
+        centred_label(state, text, lines, static_cast<float>(std::min(1.0, left_s)));
     }
 }
 

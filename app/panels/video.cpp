@@ -33,7 +33,7 @@ void draw_recent(ViewerState& state) {
         ImGui::BeginDisabled(!there);
         ImGui::PushID(&file);
         const std::string name =
-            is_live(file.colour) ? public_name(file.colour) : file.colour.filename().string();
+            is_live(file.colour) ? shown_source(file.colour) : file.colour.filename().string();
         if (item::selectable((name + depth).c_str()))
             state.commands.push(OpenRequest{file.colour, file.depth});
         ImGui::PopID();

@@ -90,6 +90,7 @@ struct OpenDialog {
     Rows rows{};
     std::filesystem::path chosen{};  ///< an entry of the folder; empty: none
     TextField typed{};               ///< narrows the entries, or is a path
+    std::string refused{};           ///< what was typed and entered, and is no file
     Completion completion{};         ///< of the typed text, once it is known
     bool all_files{false};           ///< also list files that cannot be opened
     Preview preview{};

@@ -373,7 +373,7 @@ void fact_row(const char* label, const std::string& value, const char* help) {
 }
 
 void file_row(const char* label, const std::filesystem::path& file) {
-    const std::string whole = public_name(file);
+    const std::string whole = shown_source(file);
     const std::string name = is_live(file) ? whole : file.filename().string();
     const float width = ImGui::GetContentRegionAvail().x * (1.0F - kLabelShare);
     fact_row(label, on_two_lines(name, width), whole.c_str());

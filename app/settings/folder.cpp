@@ -145,20 +145,22 @@ fs::path whole_path(const fs::path& file) {
     return (unknown ? file : whole).lexically_normal();
 }
 
-FolderEntry resolve_typed(const Folder& folder, const std::string& typed,
-                          const std::optional<FolderEntry>& chosen) {
+std::optional<FolderEntry> resolve_typed(const Folder& folder, const std::string& typed,
+                                         const std::optional<FolderEntry>& chosen) {
     const fs::path named = expand_home(typed);
-    if (is_live(named)) return {FileKind::video, named};
+    if (is_live(named)) return FolderEntry{FileKind::video, named};
     for (const fs::path& place : {folder.path / named, whole_path(named)}) {
         std::error_code unknown;
         if (fs::is_directory(place, unknown) && !place.has_filename())
-            return {FileKind::folder, place};
-        if (!fs::exists(place, unknown)) continue;
+            return FolderEntry{FileKind::folder, place};
+        const bool exists = fs::exists(place, unknown);
+        if (unknown) return FolderEntry{FileKind::other, place};  // opening it says why
+        if (!exists) continue;
         const auto known = index_of_entry(folder, place);
-        if (!known && fs::is_directory(place, unknown)) return {FileKind::folder, place};
+        if (!known && fs::is_directory(place, unknown)) return FolderEntry{FileKind::folder, place};
         return known ? folder.entries[*known] : FolderEntry{FileKind::other, place};
     }
-    return chosen ? *chosen : FolderEntry{FileKind::other, named};
+    return chosen;
 }
 
 std::optional<std::size_t> index_of_entry(const Folder& folder, const fs::path& file) {

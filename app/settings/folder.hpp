@@ -50,11 +50,11 @@ struct Folder {
 [[nodiscard]] std::filesystem::path whole_path(const std::filesystem::path& file);
 
 /// The entry for a typed name: an existing file or folder in `folder` or in the current one (with a
-/// slash behind its name, a folder to look into); else
-/// `chosen`; else the typed name itself, so that opening it gives the error. Waits for the disk:
-/// not for the window's thread.
-[[nodiscard]] FolderEntry resolve_typed(const Folder& folder, const std::string& typed,
-                                        const std::optional<FolderEntry>& chosen);
+/// slash behind its name, a folder to look into); else `chosen`; nothing: there is no such file.
+/// Waits for the disk: not for the window's thread.
+[[nodiscard]] std::optional<FolderEntry> resolve_typed(const Folder& folder,
+                                                       const std::string& typed,
+                                                       const std::optional<FolderEntry>& chosen);
 
 /// Index of the entry that contains `file`, alone or in a pair; nothing: none.
 [[nodiscard]] std::optional<std::size_t> index_of_entry(const Folder& folder,

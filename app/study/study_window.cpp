@@ -460,7 +460,7 @@ void StudyWindow::draw(const WindowInput& input) {
     if (view_.first_picture) pointer_before_px_ = pointer.position_px;
     view_.pointer_moved = pointer.position_px != pointer_before_px_;
     if (view_.pointer_moved) pointer_before_px_.reset();
-    gui_.begin(input.keys);
+    gui_.begin(input);
     const auto press = draw_study(run_, view_);
     gui_.end();
     gui_.draw();

@@ -168,7 +168,7 @@ bool is_sample(const fs::path& file) try {
 
 std::string shown_name(const fs::path& file) {
     if (is_sample(file)) return "The sample: a woman waves";
-    return is_live(file) ? public_name(file) : file.filename().string();
+    return is_live(file) ? shown_source(file) : file.filename().string();
 }
 
 fs::path remembered_file(const MediaDescription& media) {

@@ -179,6 +179,8 @@ class Viewer {
     [[nodiscard]] std::optional<OpeningShown> opening_shown() const;
     void follow_live();
     [[nodiscard]] bool keys_are_text() const;
+    [[nodiscard]] bool keys_are_taken() const;
+    [[nodiscard]] bool quits(const TypedCharacter& typed) const;
     [[nodiscard]] bool text_opens() const;
     [[nodiscard]] HandKeys hand_keys() const;
     /// What has the keyboard before the keys of a turn are taken.
@@ -213,7 +215,7 @@ class Viewer {
     [[nodiscard]] SceneContent prepare_scene();
     [[nodiscard]] SceneMark mark_scene(SceneContent content, glm::ivec2 viewport) const;
     [[nodiscard]] bool draw_if_changed(const WindowInput& input);
-    void lay_out_panels(std::span<const KeyPress> pressed, const std::function<void()>& drawn);
+    void lay_out_panels(const WindowInput& input, const std::function<void()>& drawn);
     void hold_unseen_video();
     void draw_explained();
     void carry_out_commands();
@@ -240,6 +242,7 @@ class Viewer {
     [[nodiscard]] Answer turn_depth();
     std::string save_sidecar();
     void frame_relief();
+    void forget_ruler();
     void load_bump(const std::filesystem::path& file);
     void leave_trace(TouchMarkers& markers);
     void use_material(const std::string& name);
@@ -328,7 +331,7 @@ class Viewer {
     bool record_next_{false};      // a recording begins once the last one is finished
     std::size_t kiosk_at_{0};      // the recording that was asked for last; 0: the first one
     std::size_t kiosk_passed_{0};  // recordings one after the other that could not be opened
-    double kiosk_used_s_{0.0};     // when somebody last touched
+    double kiosk_used_s_{0.0};     // when a person last did something
     bool kiosk_left_{false};       // by its key chord
     float hint_alpha_{1.0F};
     float wheel_hint_alpha_{1.0F};

@@ -15,8 +15,12 @@ using std::chrono::steady_clock;
 /// With the dialog open keys are text, even before its field has the keyboard; with a question on
 /// the depth they answer; with a list open they are the list's.
 bool Viewer::keys_are_text() const {
-    return gui_.wants_keyboard() || text_opens() || state_.ui.dialog.shown ||
-           state_.ui.depth_question.has_value() || gui_.list_is_open();
+    return keys_are_taken() || state_.ui.depth_question.has_value();
+}
+
+/// By a field, the dialog or a list.
+bool Viewer::keys_are_taken() const {
+    return gui_.wants_keyboard() || text_opens() || state_.ui.dialog.shown || gui_.list_is_open();
 }
 
 /// A field that Enter opens, or a dialog's, is typed in one or two pictures later.
@@ -30,6 +34,11 @@ bool Viewer::text_opens() const {
 HandKeys Viewer::hand_keys() const {
     const bool taken = !key_hand_.on() || gui_.focus().on() || keys_are_text();
     return taken ? HandKeys{} : HandKeys::of(window_);
+}
+
+/// Also while a question is open, whose answers are digits.
+bool Viewer::quits(const TypedCharacter& typed) const {
+    return state_.keys.action_of_character(typed.code, typed.repeated, typed.shift) == Action::quit;
 }
 
 void Viewer::take_keys(const WindowInput& input) {
@@ -47,6 +56,7 @@ void Viewer::take_keys(const WindowInput& input) {
     each_in_order(
         input, [&](const KeyPress& press) { take_key(press, before); },
         [&](const TypedCharacter& typed) {
+            if (before.typing && !keys_are_taken() && quits(typed)) return perform(Action::quit);
             if (before.typing || text_opens()) return;
             ++were_keys;
             take_character(typed, before);

@@ -32,14 +32,12 @@ void Viewer::take_kiosk_keys(const WindowInput& input) {
     each_in_order(input, take_key, take_character);
 }
 
-/// Without touch for long enough: the first recording from its begin, as it is first seen.
+/// Without a person for long enough: the first recording from its begin, as it is first seen.
 void Viewer::follow_kiosk(const WindowInput& input) {
     if (!options_.kiosk) return;
-    const bool used = state_.touch.haptic.touch.proxy.contact || !input.keys.empty() ||
-                      !input.clicks.empty() || !input.characters.empty();
-    if (used) kiosk_used_s_ = now_s();
+    if (state_.touch.haptic.touch.proxy.contact || input.by_person) kiosk_used_s_ = now_s();
     if (now_s() < kiosk_used_s_ + options_.kiosk->return_s || opening_.running()) return;
-    kiosk_used_s_ = std::numeric_limits<double>::infinity();  // until somebody touches again
+    kiosk_used_s_ = std::numeric_limits<double>::infinity();  // until somebody comes again
     state_.ui.message.clear();
     show_in_kiosk(0);
 }

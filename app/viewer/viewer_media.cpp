@@ -139,6 +139,7 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
                         const FileMemory& memory, FoundMaps maps, const FoundGuide& guide) {
     lead_.end(state_);
     explaining_.end(state_, camera_);
+    if (!request.chosen && !request.reconnect) forget_ruler();
     // A recording's video would lack these frames: end it. A waiting one goes on below.
     const bool live = media->description().live;
     const std::filesystem::path waits =
@@ -248,6 +249,11 @@ void Viewer::forget_relief() {
     relief_before_.reset();
 }
 
+/// Its points are of the relief before.
+void Viewer::forget_ruler() {
+    if (state_.ui.ruler) state_.ui.ruler.emplace();
+}
+
 void Viewer::replay_session(std::unique_ptr<OpenedSession> session, const FoundGuide& guide) {
     lead_.end(state_);
     painting_.flush_maps(touch_.recording());
@@ -255,6 +261,7 @@ void Viewer::replay_session(std::unique_ptr<OpenedSession> session, const FoundG
     for (const std::string& warning : {session->session.warning(), session->frames.warning})
         if (!warning.empty()) show_notice(capitalised(warning));
     explaining_.end(state_, camera_);
+    forget_ruler();
     painting_.end(state_);
     guide_.begin(guide, state_);
     keep_memory();

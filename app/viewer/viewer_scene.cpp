@@ -112,7 +112,7 @@ bool Viewer::draw_if_changed(const WindowInput& input) {
     const std::function<void()> read = [&] {
         if (of_window) picture = read_framebuffer(window_.framebuffer_size());
     };
-    lay_out_panels(input.keys, read);
+    lay_out_panels(input, read);
     if (!change_.take({scene, gui_.content()}, now) && !wanted) return false;
     scene_.draw(content, camera, viewport);
     follow_pointer();
@@ -126,8 +126,8 @@ bool Viewer::draw_if_changed(const WindowInput& input) {
 
 /// Lays out all panels, for Gui::draw(). `drawn` must exist until then: it is called when all is
 /// drawn that saved pictures contain.
-void Viewer::lay_out_panels(std::span<const KeyPress> pressed, const std::function<void()>& drawn) {
-    gui_.begin(pressed, text_opens());
+void Viewer::lay_out_panels(const WindowInput& input, const std::function<void()>& drawn) {
+    gui_.begin(input, text_opens());
     panes_.show(shown_, state_);
     draw_panes(state_);
     const glm::ivec2 viewport = relief_viewport();

@@ -257,14 +257,29 @@ void Gui::keep_early_text(bool text_opens) {
     early_text_.clear();
 }
 
-void Gui::begin(std::span<const KeyPress> pressed, bool text_opens) {
+/// A field reads no characters while Control is down: what was typed after a missed key with
+/// Control waits for the next picture.
+void Gui::catch_up_control(const WindowInput& input) {
+    control_missed_ = late_text_.empty() && field_reads() && missed_control(input);
+    if (control_missed_) {
+        set_control(true);
+        late_text_ = take_characters();
+    } else if (!late_text_.empty()) {
+        const std::vector<unsigned> newest = take_characters();
+        for (const auto& text : {std::exchange(late_text_, {}), newest})
+            for (const unsigned character : text) ImGui::GetIO().AddInputCharacter(character);
+    }
+}
+
+void Gui::begin(const WindowInput& input, bool text_opens) {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::GetIO().Fonts->ClearTexData();  // OpenGL has its own: 10 MB
     ImGui_ImplGlfw_NewFrame();
     lay_out_in_pixels();
-    const LingeringKeys lingering(pressed);
+    const LingeringKeys lingering(input.keys);
     drop_tabs();
     keep_early_text(text_opens);
+    catch_up_control(input);
     ImGui::NewFrame();
     events_left_ = queued_events();
     focus_.begin();
@@ -276,6 +291,7 @@ void Gui::begin(std::span<const KeyPress> pressed, bool text_opens) {
 void Gui::end() {
     focus_.end(style_.scale);
     ImGui::Render();
+    if (std::exchange(control_missed_, false)) set_control(false);
 }
 
 void Gui::draw() {

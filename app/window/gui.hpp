@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -37,9 +36,9 @@ class Gui {
     Gui(const Gui&) = delete;
     Gui& operator=(const Gui&) = delete;
 
-    /// Begins a picture; panels may be drawn until end(). `pressed`: keys since the last picture.
+    /// Begins a picture; panels may be drawn until end(). `input`: since the last picture.
     /// `text_opens`: a text is about to be typed in, and gets the characters that came too early.
-    void begin(std::span<const KeyPress> pressed, bool text_opens = false);
+    void begin(const WindowInput& input, bool text_opens = false);
     /// Drops the first `count` characters since the last picture, which were key presses: no field
     /// that opens later may read them. Not those that a field reads.
     void drop_characters(std::size_t count);
@@ -70,12 +69,15 @@ class Gui {
   private:
     void lay_out_in_pixels();
     void keep_early_text(bool text_opens);
+    void catch_up_control(const WindowInput& input);
 
     GuiStyle style_;
     Fonts fonts_{};
     bool closes_lists_{false};
     KeyboardFocus focus_{};
     std::vector<unsigned> early_text_{};
+    std::vector<unsigned> late_text_{};  // for the next picture
+    bool control_missed_{false};
     int events_left_{0};  // of the last picture, not read yet
 };
 

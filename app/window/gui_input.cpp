@@ -23,6 +23,24 @@ LingeringKeys::~LingeringKeys() {
     for (const int key : keys_) ImGui::GetIO().KeysDown[key] = false;
 }
 
+bool missed_control(const WindowInput& input) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.KeyCtrl || io.KeyShift || io.KeyAlt || io.KeySuper) return false;
+    const auto chord = std::ranges::find_if(input.keys, &KeyPress::control);
+    if (chord == input.keys.end()) return false;
+    // Behind it characters alone: a key would act with Control down.
+    const auto keys_before = static_cast<std::size_t>(chord - input.keys.begin());
+    const auto keys_behind = input.keys.size() - keys_before - 1;
+    return input.characters.size() >= keys_behind &&
+           std::ranges::all_of(input.characters, [keys_before](const TypedCharacter& typed) {
+               return typed.keys > keys_before + 1;
+           });
+}
+
+void set_control(bool down) {
+    ImGui::GetIO().KeyCtrl = down;
+}
+
 void drop_tabs() {}  // ImGui does not know the key
 
 std::vector<unsigned> take_characters() {
@@ -59,6 +77,12 @@ void drop_events(const Is& is) {
 LingeringKeys::LingeringKeys(std::span<const KeyPress> /*pressed*/) {}
 
 LingeringKeys::~LingeringKeys() = default;
+
+bool missed_control(const WindowInput& /*input*/) {
+    return false;
+}
+
+void set_control(bool /*down*/) {}
 
 void drop_tabs() {
     drop_events([](const ImGuiInputEvent& event) {

@@ -30,6 +30,12 @@ void drop_tabs();
 /// Takes out the characters, which ImGui will not read.
 [[nodiscard]] std::vector<unsigned> take_characters();
 
+/// Whether Control and a key came and went since the last picture, before all characters. Without a
+/// queue ImGui would miss Control.
+[[nodiscard]] bool missed_control(const WindowInput& input);
+/// As ImGui sees it; the same from the begin of a picture to its end.
+void set_control(bool down);
+
 /// The pointer from screen units, in which the backend has it, to pixels of the framebuffer.
 /// `first`: the first event of the queue that is in screen units.
 void scale_pointer(ImVec2 pixels, int first);

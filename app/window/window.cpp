@@ -32,6 +32,11 @@ void note_event(GLFWwindow* window) {
     input_of(window).any = true;
 }
 
+void note_person(GLFWwindow* window) {
+    note_event(window);
+    input_of(window).by_person = true;
+}
+
 /// The state of a mouse button that dibhr uses; null: of another one.
 bool* button_of(Pointer& pointer, int button) {
     switch (button) {
@@ -153,7 +158,7 @@ void Window::collect_events() {
     glfwGetWindowSize(window_, &pending_.window_size.x, &pending_.window_size.y);
     glfwGetFramebufferSize(window_, &pending_.framebuffer_size.x, &pending_.framebuffer_size.y);
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int code, int action, int mods) {
-        note_event(window);
+        note_person(window);
         if (action == GLFW_RELEASE) return;
         PendingInput& all = pending_of(window);
         all.key = {key, (mods & GLFW_MOD_CONTROL) != 0, action == GLFW_REPEAT,
@@ -162,7 +167,7 @@ void Window::collect_events() {
         all.input.keys.push_back(all.key);
     });
     glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
-        note_event(window);
+        note_person(window);
         // GLFW reports a character after the key that typed it.
         const KeyPress& by = pending_of(window).key;
         WindowInput& input = input_of(window);
@@ -170,19 +175,19 @@ void Window::collect_events() {
     });
     glfwGetCursorPos(window_, &pending_.pointer.position_px.x, &pending_.pointer.position_px.y);
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int mods) {
-        note_event(window);
+        note_person(window);
         note_click(window, button, action == GLFW_PRESS, mods);
     });
     glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double up) {
-        note_event(window);
+        note_person(window);
         input_of(window).wheel_steps += up;
     });
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** files) {
-        note_event(window);
+        note_person(window);
         input_of(window).dropped.assign(files, files + count);
     });
     glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
-        note_event(window);
+        note_person(window);
         pending_of(window).pointer.position_px = {x, y};
         pending_of(window).pointer_moved = true;
     });

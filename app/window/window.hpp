@@ -61,8 +61,9 @@ struct WindowInput {
     double wheel_steps{0.0};             ///< > 0: away from the person
     /// When the left mouse button was last pressed.
     std::optional<EventTimes::Time> clicked_at{};
-    bool any{false};      ///< something happened, also what has no entry here: the pointer moved
-    bool damaged{false};  ///< the screen has lost the window's picture, or part of it
+    bool any{false};        ///< something happened, also what has no entry here
+    bool by_person{false};  ///< of it a key, a button, the wheel, a drop or a move of the pointer
+    bool damaged{false};    ///< the screen has lost the window's picture, or part of it
 };
 
 /// Calls take_key(press) and take_character(typed) for all of an input, in the order in which they

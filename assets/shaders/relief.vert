@@ -10,7 +10,7 @@ layout(location = 1) in uvec2 source;
 layout(location = 2) in vec3 layer_px;  // elevation without bumps; far face, near face
 layout(location = 3) in vec4 fill;
 out vec2 faces_px;  // far, near
-out vec4 continued;  // colour of the far face under the near one; 1: far under
+out vec4 continued;  // colour of the far face under the near one; 1: without light of its own
 #endif
 
 uniform sampler2D elevations;  // px, without bumps and painted heights

@@ -117,6 +117,7 @@ void Browsing::go_to(const fs::path& folder, OpenDialog& dialog) {
     dialog.is_reading = true;
     ++dialog.reading_number;
     dialog.typed = {};
+    dialog.refused.clear();
     ++dialog.line;
     dialog.pictures_to_focus = OpenDialog::kPicturesToFocus;
     dialog.chosen.clear();
@@ -137,6 +138,7 @@ void Browsing::complete(const std::string& typed, const OpenDialog& dialog) {
 
 void Browsing::enter(const TypedFile& entered, const OpenDialog& dialog) {
     entered_in_ = dialog.line;
+    entered_ = entered.typed;
     typed_.restart([entered, listed = dialog.folder] {
         return resolve_typed(listed, entered.typed, entered.chosen);
     });
@@ -167,8 +169,16 @@ void Browsing::take_folder(OpenDialog& dialog) {
 void Browsing::take_typed(ViewerState& state) {
     OpenDialog& dialog = state.ui.dialog;
     if (auto completion = completion_.take()) dialog.completion = std::move(*completion);
-    const auto meant = typed_.take();
-    if (!meant || !dialog.shown || dialog.line != entered_in_) return;
+    const auto looked_up = typed_.take();
+    if (!looked_up || !dialog.shown || dialog.line != entered_in_ ||
+        entered_ != dialog.typed.data())
+        return;
+    const std::optional<FolderEntry>& meant = *looked_up;
+    if (!meant) {
+        dialog.refused = entered_;
+        dialog.pictures_to_focus = OpenDialog::kPicturesToFocus;
+        return;
+    }
     if (is_only_folder(*meant)) return go_to(meant->file, dialog);
     state.commands.push(request_for(*meant));
     dialog.shown = false;

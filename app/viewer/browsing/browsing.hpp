@@ -73,10 +73,11 @@ class Browsing {
     bool waits_{false};  // for the choice to rest
     Stop stop_{};
     int neighbour_offset_{0};
-    int entered_in_{0};  // OpenDialog::line at enter(); a result for another line is dropped
+    std::string entered_{};  // what is looked up
+    int entered_in_{0};      // OpenDialog::line at enter(); a result for another line is dropped
     BackgroundTask<Folder> folder_;
     BackgroundTask<Completion> completion_;
-    BackgroundTask<FolderEntry> typed_;
+    BackgroundTask<std::optional<FolderEntry>> typed_;
     BackgroundTask<Read> preview_;
     RecordingFolders recordings_;
     BackgroundTask<Folder> neighbours_;

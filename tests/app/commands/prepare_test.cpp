@@ -59,8 +59,8 @@ TEST_CASE("what is prepared feels the same and is listed and emptied", "[prepare
     const std::string touched_before = touched(folder);
     const std::string surface_before = surface(folder);
     const std::vector<std::string> prepare{"prepare", "film_color.mkv", "--cleaning", "sensor"};
-    CHECK(contains(done(folder, prepare), "20 frames prepared"));
-    CHECK(contains(done(folder, prepare), "were prepared before"));
+    CHECK(contains(done(folder, prepare), "20 frames prepared, "));
+    CHECK(contains(done(folder, prepare), "20 frames prepared before"));
     CHECK(touched(folder) == touched_before);
     CHECK(surface(folder) == surface_before);
     const std::string listed = done(folder, {"prepare", "--list"});

@@ -28,8 +28,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kState = "state";        // of the program, in the test's folder
-constexpr std::chrono::seconds kPatience{60};  // only reached by a failure
+constexpr const char* kState = "state";  // of the program, in the test's folder
 
 /// In the child, between fork and exec.
 [[noreturn]] void become(const std::vector<std::string>& arguments,
@@ -159,7 +158,7 @@ WindowProgram::WindowProgram(std::vector<std::string> arguments,
       board_(std::make_unique<MappedBoard>(board)) {}
 
 void WindowProgram::wait_until(const std::function<bool(const Seen&)>& is_so) const {
-    const bool came = eventually([&] { return is_so(seen()) || has_ended(); }, kPatience);
+    const bool came = eventually([&] { return is_so(seen()) || has_ended(); });
     const Seen last = seen();
     if (is_so(last)) return;
     FAIL((came ? "the program has ended" : "no turn shows it") << "; the last one: " << last);

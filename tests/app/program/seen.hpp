@@ -57,7 +57,8 @@ struct Seen {
     bool dialog{false};
     std::uint64_t dialog_entries{0};
     bool dialog_reads{false};
-    bool dialog_typing{false};  ///< its line has the keyboard
+    bool dialog_typing{false};   ///< its line has the keyboard
+    bool dialog_refuses{false};  ///< what was typed is no file
     SeenText dialog_folder{}, dialog_chosen{};
     std::uint64_t dialog_recordings{0};  ///< folders that are marked so
     SeenText preview_text{};

@@ -60,6 +60,7 @@ void see_ui(const UiState& ui, Seen& seen) {
     seen.help = ui.help_open;
     seen.dialog = ui.dialog.shown;
     seen.dialog_reads = ui.dialog.is_reading;
+    seen.dialog_refuses = !ui.dialog.refused.empty();
     seen.dialog_typing = ui.dialog.shown && ui.dialog.pictures_to_focus == 0;
     seen.dialog_entries = ui.dialog.rows.entries.size();
     seen.dialog_folder.set(ui.dialog.folder.path.string());

@@ -110,12 +110,12 @@ TEST_CASE("what is typed means a file that is there, from the folder on; else th
     for (const char* name : {"one_color.mp4", "one_depth.mp4", "below/two.mp4"}) put(folder / name);
     const Folder read = read_folder(folder.path());
     const FolderEntry chosen{FileKind::video, folder / "one_color.mp4"};
-    CHECK(resolve_typed(read, "one_depth.mp4", {}).name() == "one_color.mp4 + one_depth.mp4");
-    CHECK(resolve_typed(read, "below/two.mp4", chosen).file == folder / "below/two.mp4");
-    CHECK(resolve_typed(read, "below", {}).kind == FileKind::folder);
-    CHECK(resolve_typed(read, (folder / "below").string(), {}).file == folder / "below");
-    CHECK(resolve_typed(read, "one", chosen).file == chosen.file);
-    CHECK(resolve_typed(read, "gone.mp4", {}).file == "gone.mp4");
+    CHECK(resolve_typed(read, "one_depth.mp4", {})->name() == "one_color.mp4 + one_depth.mp4");
+    CHECK(resolve_typed(read, "below/two.mp4", chosen)->file == folder / "below/two.mp4");
+    CHECK(resolve_typed(read, "below", {})->kind == FileKind::folder);
+    CHECK(resolve_typed(read, (folder / "below").string(), {})->file == folder / "below");
+    CHECK(resolve_typed(read, "one", chosen)->file == chosen.file);
+    CHECK_FALSE(resolve_typed(read, "gone.mp4", {}));
 }
 
 TEST_CASE("a folder that holds no pictures itself is told apart from a file that is none",

@@ -216,6 +216,13 @@ TEST_CASE("an answer can hold for the other files of the folder", "[asking]") {
         WindowProgram viewer = files.view(desk, "first");
         viewer.wait_for_surface();
         wait_until_asked(viewer);
+        desk.press("key q");
+        REQUIRE(viewer.wait() == 0);
+    }
+    {
+        WindowProgram viewer = files.view(desk, "first");
+        viewer.wait_for_surface();
+        wait_until_asked(viewer);
         viewer.act("key 0");
         CHECK(viewer.seen().depth_for_folder);
         const std::uint32_t media = viewer.seen().drawn_media;

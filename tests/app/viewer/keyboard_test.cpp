@@ -110,7 +110,8 @@ TEST_CASE("a slider takes arrows and a typed number and a list takes its entry b
     CHECK(viewer.seen().focus_value.str() == "a point");
 }
 
-TEST_CASE("what is typed before a field or a dialog has the keyboard arrives in it", "[keyboard]") {
+TEST_CASE("what is typed before a field or a dialog has the keyboard arrives in it, and in order",
+          "[keyboard]") {
     const Desk desk;
     const TemporaryFolder folder;
     write_depth_png(folder / "first_depth.png", 64, 48, 100);
@@ -123,6 +124,14 @@ TEST_CASE("what is typed before a field or a dialog has the keyboard arrives in 
     for (int k = 0; k < 6; ++k) viewer.wait_for_turn();
     viewer.act("key Return");
     viewer.wait_until([](const Seen& now) { return now.focus_value.str() == "2.5 mm"; });
+    for (int k = 0; k < 6; ++k) viewer.wait_for_turn();
+    viewer.act("key Return");
+    for (int k = 0; k < 6; ++k) viewer.wait_for_turn();
+    viewer.act("type 12");
+    act_in_one_picture(desk, viewer, "key ctrl+a type 3.5");
+    viewer.wait_until([](const Seen& now) { return now.focus_value.str() == "3.5 mm"; });
+    viewer.act("key Return");
+    for (int k = 0; k < 6; ++k) viewer.wait_for_turn();
     viewer.act("key Escape");
     // A key before it is not typed into it.
     act_in_one_picture(desk, viewer, "key m key ctrl+o type second");

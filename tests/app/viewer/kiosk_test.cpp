@@ -121,6 +121,9 @@ TEST_CASE("a kiosk that nobody touches returns to its first recording as it was 
     viewer.act(kPlace);
     viewer.wait_until([&](const Seen& now) { return !is_first_view(now); });
     viewer.wait_until(is_first_view);  // nobody touches
+    viewer.act("click 5 click 5");     // the wheel
+    viewer.wait_until([&](const Seen& now) { return !is_first_view(now); });
+    viewer.wait_until(is_first_view);
     viewer.act("key Return");
     viewer.wait_until(shows_pot);
     viewer.wait_until(shows_cup);

@@ -111,6 +111,42 @@ TEST_CASE("a folder that is a recording can be looked into by keyboard", "[dialo
     viewer.wait_until([](const Seen& now) { return !now.dialog; });
 }
 
+TEST_CASE("a typed path that is nothing keeps the dialog and opens no other entry", "[dialog]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    make_recordings(folder);
+    WindowProgram viewer = view_sample_here(desk, folder);
+    open_dialog(viewer);
+    viewer.wait_until([](const Seen& now) { return now.dialog_recordings == 1; });
+    choose(viewer, "take");
+    viewer.act("type ./tak key Return");
+    viewer.wait_until([](const Seen& now) { return now.dialog_refuses && now.dialog_typing; });
+    CHECK(viewer.seen().dialog);
+    viewer.act("key ctrl+a type ./take key Return");
+    viewer.wait_until([](const Seen& now) {
+        return !now.dialog && now.surface && now.file.str().ends_with("take");
+    });
+}
+
+TEST_CASE("a point of the ruler goes with the recording it was set on", "[dialog]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    make_recordings(folder);
+    WindowProgram viewer = view_sample_here(desk, folder);
+    viewer.wait_for_surface();
+    viewer.act("mousemove 450 400 key n");
+    viewer.wait_until([](const Seen& now) { return now.ruler; });
+    viewer.act("click 1");
+    viewer.wait_until([](const Seen& now) { return now.ruler_points == 1; });
+    open_dialog(viewer);
+    viewer.wait_until([](const Seen& now) { return now.dialog_recordings == 1; });
+    viewer.act("type take key Return");
+    viewer.wait_until([](const Seen& now) {
+        return now.surface && now.file.str().ends_with("take") && now.ruler_points == 0;
+    });
+    CHECK(viewer.seen().ruler);
+}
+
 TEST_CASE("the chosen entry shows its length and its size and a picture of its depth", "[dialog]") {
     const Desk desk;
     const TemporaryFolder folder;

@@ -291,6 +291,7 @@ TEST_CASE(
     // The file's name begins with the key that quits: typing must not act.
     viewer.act("key ctrl+o");
     viewer.wait_until([](const Seen& now) { return now.dialog_typing; });
+    write_text(home / "quartz.mp4", "no video");
     viewer.act("type quartz.mp4 key Return");
     viewer.wait_until([](const Seen& now) { return contains(now.message.str(), "quartz.mp4"); });
     viewer.act("key Escape");
