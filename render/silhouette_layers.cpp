@@ -194,10 +194,8 @@ class LayerMesher {
         const Rim& under = **std::find_if(rims.begin(), rims.end(), is_under);
         for (std::size_t k = 0; k < kTriangles.size(); k += 3) {
             const auto corner = [k](std::size_t n) { return kTriangles[k + n]; };
-            if (!is_under(rims[corner(0)]) && !is_under(rims[corner(1)]) &&
-                !is_under(rims[corner(2)]))
-                continue;
             const std::array<const Rim*, 3> of{rims[corner(0)], rims[corner(1)], rims[corner(2)]};
+            if (std::none_of(of.begin(), of.end(), is_under)) continue;
             const Rim* const behind = farthest_of_two(of);
             for (std::size_t n = 0; n < 3; ++n) {
                 std::uint32_t unshared = 0;

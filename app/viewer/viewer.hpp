@@ -186,6 +186,7 @@ class Viewer {
     /// What has the keyboard before the keys of a turn are taken.
     struct KeyboardUse {
         bool typing{false}, in_list{false};
+        bool asked{false};  ///< by the question on the depth alone, whose answers are digits
     };
     void take_keys(const WindowInput& input);
     void take_key(const KeyPress& press, KeyboardUse before);

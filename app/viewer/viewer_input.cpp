@@ -36,7 +36,6 @@ HandKeys Viewer::hand_keys() const {
     return taken ? HandKeys{} : HandKeys::of(window_);
 }
 
-/// Also while a question is open, whose answers are digits.
 bool Viewer::quits(const TypedCharacter& typed) const {
     return state_.keys.action_of_character(typed.code, typed.repeated, typed.shift) == Action::quit;
 }
@@ -44,7 +43,9 @@ bool Viewer::quits(const TypedCharacter& typed) const {
 void Viewer::take_keys(const WindowInput& input) {
     if (options_.kiosk) return take_kiosk_keys(input);
     if (!input.keys.empty()) lead_.end(state_);
-    const KeyboardUse before{.typing = keys_are_text(), .in_list = gui_.list_is_open()};
+    const KeyboardUse before{.typing = keys_are_text(),
+                             .in_list = gui_.list_is_open(),
+                             .asked = !keys_are_taken() && state_.ui.depth_question.has_value()};
     const std::vector<int> held = state_.keys.held_keys(Action::show_as_recorded);
     const bool as_recorded =
         !before.typing &&
@@ -56,7 +57,7 @@ void Viewer::take_keys(const WindowInput& input) {
     each_in_order(
         input, [&](const KeyPress& press) { take_key(press, before); },
         [&](const TypedCharacter& typed) {
-            if (before.typing && !keys_are_taken() && quits(typed)) return perform(Action::quit);
+            if (before.asked && quits(typed)) return perform(Action::quit);
             if (before.typing || text_opens()) return;
             ++were_keys;
             take_character(typed, before);

@@ -200,8 +200,10 @@ cv::Mat VideoFile::retrieve() {
 
 void VideoFile::update_facts() {
     const auto known = static_cast<std::int64_t>(times_.size());
-    if (!facts_.frames_exact) facts_.frames = std::max(facts_.frames, known);
-    if (!facts_.frames_exact && listed_s_.size() >= 2) return;  // the packets say more
+    if (!facts_.frames_exact) {
+        facts_.frames = std::max(facts_.frames, known);
+        if (listed_s_.size() >= 2) return;  // the packets say more
+    }
     const double span = times_.back() - times_.front();
     if (known >= 2 && span > 0.0) facts_.frames_per_s = static_cast<double>(known - 1) / span;
     const double last_interval =
@@ -215,11 +217,11 @@ void VideoFile::list_frames() {
     std::error_code unknown;
     const std::uintmax_t bytes = std::filesystem::file_size(facts_.file, unknown);
     if (!unknown && bytes <= kQuicklyRead) listed_s_ = picture_times_s();
-    const std::vector<double>& all_s = listed_s_;
-    if (all_s.size() < 2) return;
-    facts_.frames = static_cast<std::int64_t>(all_s.size());
-    facts_.frames_per_s = static_cast<double>(all_s.size() - 1) / (all_s.back() - all_s.front());
-    facts_.duration_s = 2.0 * all_s.back() - all_s[all_s.size() - 2];
+    const std::size_t count = listed_s_.size();
+    if (count < 2) return;
+    facts_.frames = static_cast<std::int64_t>(count);
+    facts_.frames_per_s = static_cast<double>(count - 1) / (listed_s_.back() - listed_s_.front());
+    facts_.duration_s = 2.0 * listed_s_.back() - listed_s_[count - 2];
 }
 
 void VideoFile::place_at(double time_s) {

@@ -63,7 +63,7 @@ std::string signal_in_words(const LiveStatus& live) {
 std::string in_words(const LiveStatus& live) {
     if (live.signal) return number_text(kMilliseconds * live.behind_s, 0) + " ms behind";
     std::string words = signal_in_words(live);
-    if (live.ended && !live.trouble.empty())
+    if (live.permanent_error && !live.trouble.empty())
         words = live.trouble;
     else if (!live.format_changed)
         words += " for " + number_text(live.silent_s, 0) + " s: waiting";
@@ -298,7 +298,7 @@ LiveStatus LivePlayback::status(Time now) const {
     status.force_off = force_off_;
     status.format_changed = signal.format_changed;
     status.trouble = signal.trouble;
-    status.ended = signal.permanent_error;
+    status.permanent_error = signal.permanent_error;
     status.opened = opened_;
     status.media = frames_.empty() ? 0 : frames_.front().media;
     const MotionThrottle& throttle = assembly_.throttle();

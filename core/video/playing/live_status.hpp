@@ -18,14 +18,14 @@ struct LiveStatus {
     bool motion_paused{false};       ///< requested, but there is no time: nothing is carried
     bool in_betweens_paused{false};  ///< likewise: frames are blended
     bool signal{true};
-    double silent_s{0.0};        ///< how long the signal has been lost
-    bool force_off{false};       ///< because the surface moved when the signal was lost
-    bool format_changed{false};  ///< the pictures changed size or kind: open the source again
-    std::string trouble{};       ///< why it cannot be reached; empty: no data arrives
-    bool ended{false};           ///< waiting for data does not help
-    std::uint32_t opened{0};     ///< number given when it was opened
-    std::uint32_t media{0};      ///< number that all frames carry; 0: no frames yet
-    DepthNoise noise{};          ///< measured in the first pictures
+    double silent_s{0.0};         ///< how long the signal has been lost
+    bool force_off{false};        ///< because the surface moved when the signal was lost
+    bool format_changed{false};   ///< the pictures changed size or kind: open the source again
+    std::string trouble{};        ///< why it cannot be reached; empty: no data arrives
+    bool permanent_error{false};  ///< the trouble is permanent: waiting does not help
+    std::uint32_t opened{0};      ///< number given when it was opened
+    std::uint32_t media{0};       ///< number that all frames carry; 0: no frames yet
+    DepthNoise noise{};           ///< measured in the first pictures
 };
 
 /// "Signal from 'udp://...'", "No signal from ...", or that it changed its form.

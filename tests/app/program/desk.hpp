@@ -52,7 +52,7 @@ class WindowProgram : public Process {
 
     /// The newest turn of the window.
     [[nodiscard]] Seen seen() const { return (*board_)->read(); }
-    /// Until a turn shows what `is_so` asks for. The test fails when none does within a minute,
+    /// Until a turn shows what `is_so` asks for. The test fails when none does in time,
     /// and when the program ends before.
     void wait_until(const std::function<bool(const Seen&)>& is_so) const;
     /// Until a turn is over that was begun after the call: every event of before is done, and drawn

@@ -128,7 +128,7 @@ TEST_CASE("a signal that is lost while it moves takes the force off within 250 m
     CHECK(contains(words, "for 10 s"));
     CHECK(contains(words, "the force is off") == moves);
     LiveStatus ended = playback.status(bench.now());
-    ended.ended = true;
+    ended.permanent_error = true;
     ended.trouble = "'standard input' has ended";
     CHECK(in_words(ended).starts_with(ended.trouble));
     CHECK_FALSE(contains(in_words(ended), "waiting"));
