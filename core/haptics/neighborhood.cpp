@@ -68,7 +68,7 @@ class NeighborhoodWalk : private ProxyWalk {
     using ProxyWalk::ProxyWalk;
 
     void run() noexcept {
-        most_reads_ = half_over_bump(surface_, Neighborhood::kMostLooks);
+        limit_reads(half_over_bump(surface_, Neighborhood::kMostLooks));
         visit_until_rest([this] {
             if (proxy_.active.kind == PrimitiveKind::none) return visit_free();
             activate_smallest_primitive();

@@ -33,7 +33,7 @@ class GraphWalk : private ProxyWalk {
     using ProxyWalk::ProxyWalk;
 
     void run() noexcept {
-        most_reads_ = Pga::kMostReads;
+        limit_reads(Pga::kMostReads);
         visit_until_rest([this] {
             activate_smallest_primitive();
             switch (proxy_.active.kind) {

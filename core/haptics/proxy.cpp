@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <optional>
 
@@ -137,6 +138,30 @@ Flight ProxyWalk::fly_to(Vec3 end) noexcept {
     proxy_.flown.add(Vec2(flight.end));
     if (flight.cut_short) proxy_.bound_met = true;
     return flight;
+}
+
+void ProxyWalk::end_or_look_ahead() noexcept {
+    if (proxy_.reads >= most_reads_) {
+        most_moves_ = std::min(most_moves_, proxy_.moves);
+        return;
+    }
+    halt_reads_ = std::min(proxy_.reads + kReadsToNextLook, most_reads_);
+    const auto i = static_cast<int>(proxy_.position.x);
+    const auto j = static_cast<int>(proxy_.position.y);
+    const int way_i = i - looked_i_;
+    const int way_j = j - looked_j_;
+    const bool is_first = looked_i_ < 0;
+    looked_i_ = i;
+    looked_j_ = j;
+    const int length = std::max(std::abs(way_i), std::abs(way_j));
+    if (is_first || length > kReadsToNextLook) return;  // or it flew
+    constexpr int kBeside = 2;  // a move reads its neighbours, and ways are seldom quite straight
+    for (int k = length + 1; k <= 2 * length; ++k) {
+        const int to_i = i + k * way_i / length;
+        const int to_j = j + k * way_j / length;
+        surface_.fetch(to_i - kBeside, to_j);
+        surface_.fetch(to_i + kBeside, to_j);
+    }
 }
 
 ProxyWalk::Next ProxyWalk::leave() noexcept {

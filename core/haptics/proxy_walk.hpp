@@ -71,10 +71,17 @@ class ProxyWalk {
     /// The number of moves after which no further one is made.
     [[nodiscard]] int last_move() const noexcept { return std::min(most_moves_, last_move_); }
 
-    /// Counts what a visit reads: after `most_reads_` there is no further visit.
+    /// From now on reads are counted.
+    void limit_reads(int most) noexcept {
+        most_reads_ = most;
+        halt_reads_ = kReadsToFirstLook;
+    }
+
+    /// Counts what a visit reads: after so many there is no further visit.
     void count_reads(int reads) noexcept {
         proxy_.reads += reads;
-        if (proxy_.reads >= most_reads_) most_moves_ = std::min(most_moves_, proxy_.moves);
+        if (proxy_.reads >= halt_reads_) [[unlikely]]
+            end_or_look_ahead();
     }
 
     /// Free flight to the goal, or to where it meets the surface: then there is a TRIANGLE to
@@ -187,6 +194,15 @@ class ProxyWalk {
         return !stops;
     }
 
+    /// A usual update reads less, and never looks ahead.
+    static constexpr int kReadsToFirstLook = 64;
+    static constexpr int kReadsToNextLook = 32;  ///< about eight moves
+
+    /// Ends the walk after its last read. Before that, every so many reads, asks the memory for the
+    /// vertices around the way ahead, if the walk goes on as it went last: where an image is in no
+    /// cache, each of its rows is a wait of some moves' length. Nothing but the time depends on it.
+    [[gnu::cold, gnu::noinline]] void end_or_look_ahead() noexcept;
+
     const DepthSurface& surface_;
     const Vec3 goal_;
     const Friction friction_;
@@ -194,6 +210,8 @@ class ProxyWalk {
     const int last_move_;
     int most_moves_{all_moves_};  ///< less those that flights and reads have used up
     int most_reads_{std::numeric_limits<int>::max()};
+    int halt_reads_{std::numeric_limits<int>::max()};  ///< the reads after which to look or end
+    int looked_i_{-1}, looked_j_{-1};                  ///< where it looked ahead last; -1: not yet
     Proxy& proxy_;
     bool moved_{false};
     bool touched_{proxy_.contact};  ///< in contact at the begin of this update or since

@@ -96,6 +96,18 @@ class DepthSurface {
         return is_bare_ ? z : z + added_height(i, j, k);
     }
 
+    /// Asks the memory for what `elevation(i, j)` reads, and does not wait. Outside the image: does
+    /// nothing. Inlined always: GCC leaves out a call that only fetches.
+    [[gnu::always_inline]] void fetch(int i, int j) const noexcept {
+        if (!has_vertex(i, j)) return;
+        const std::size_t k = static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
+                              static_cast<std::size_t>(i);
+        __builtin_prefetch(from_ + k);
+        if (to_ != from_) __builtin_prefetch(to_ + k);
+        if (heights_ != nullptr) __builtin_prefetch(heights_ + k);
+        if (stretched_ != nullptr) __builtin_prefetch(stretched_ + k);
+    }
+
     [[nodiscard]] bool has_bump() const noexcept { return bump_ != nullptr; }
 
     [[nodiscard]] bool has_vertex(int i, int j) const noexcept {
