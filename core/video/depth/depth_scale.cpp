@@ -62,6 +62,7 @@ std::optional<LevelRamp> ramp_of(const std::vector<float>& of_level) {
     return std::nullopt;
 }
 
+/// `of_level` has an entry for every level of these bits.
 template <typename Level>
 void map_levels(const cv::Mat& grey, const std::vector<float>& of_level, std::vector<float>& out) {
     std::size_t k = 0;
@@ -73,7 +74,14 @@ void map_levels(const cv::Mat& grey, const std::vector<float>& of_level, std::ve
     }
 }
 
-/// Pixels from 8 bits by sums instead of the table, many at a time.
+/// Pixels from 8 bits by a table of 256.
+DIBHR_VECTOR_CLONES void map_table(const std::uint8_t* __restrict row,
+                                   const float* __restrict table, std::size_t count,
+                                   float* __restrict out) {
+    for (std::size_t i = 0; i < count; ++i) out[i] = table[row[i]];
+}
+
+/// Pixels from 8 bits by sums instead of a table, many at a time.
 DIBHR_VECTOR_CLONES void map_ramp(const std::uint8_t* __restrict row, const LevelRamp& of,
                                   std::size_t count, float* __restrict out) {
     const LevelRamp ramp = of;
@@ -93,6 +101,20 @@ DIBHR_VECTOR_CLONES void map_numbers(const float* numbers, const Linear& linear,
         const double bounded = std::min(std::max(nearness, lowest_of), highest_of);
         const bool finite = std::fabs(numbers[i]) <= std::numeric_limits<float>::max();
         out[i] = finite ? static_cast<float>(highest * bounded) : kNoData;
+    }
+}
+
+/// `of_level` has 256 entries.
+void map_bytes(const cv::Mat& grey, const std::vector<float>& of_level, DepthImage& depth) {
+    const std::optional<LevelRamp> ramp = ramp_of(of_level);
+    const auto count = static_cast<std::size_t>(grey.cols);
+    for (int j = 0; j < grey.rows; ++j) {
+        const auto* const row = grey.ptr<std::uint8_t>(j);
+        float* const out = depth.levels.data() + depth.index(0, j);
+        if (ramp)
+            map_ramp(row, *ramp, count, out);
+        else
+            map_table(row, of_level.data(), count, out);
     }
 }
 
@@ -146,15 +168,18 @@ float DepthScale::operator()(double level) const {
                               (as_recorded_ ? nearness : std::clamp(nearness, 0.0, 1.0)));
 }
 
-DepthImage DepthScale::image_of(const cv::Mat& picture, DepthImage used) const {
-    const cv::Mat grey = grey_of(picture);
+DepthImage DepthScale::image_of(const cv::Mat& picture, DepthImage used,
+                                const std::vector<float>* level_of_code) const {
+    const cv::Mat grey = level_of_code != nullptr ? picture : grey_of(picture);
     DepthImage depth{grey.cols, grey.rows, highest_, std::move(used.levels)};
     depth.levels.resize(grey.total());
-    const bool eight_bits = grey.depth() == CV_8U && of_level_.size() == kLevelsOfEightBits;
-    if (const auto ramp = eight_bits ? ramp_of(of_level_) : std::nullopt) {
-        for (int j = 0; j < grey.rows; ++j)
-            map_ramp(grey.ptr<std::uint8_t>(j), *ramp, static_cast<std::size_t>(grey.cols),
-                     depth.levels.data() + depth.index(0, j));
+    const auto out_of = [&depth](int row) { return depth.levels.data() + depth.index(0, row); };
+    if (level_of_code != nullptr) {
+        std::vector<float> of_code(level_of_code->size());
+        map_row(level_of_code->data(), static_cast<int>(of_code.size()), of_code.data());
+        map_bytes(grey, of_code, depth);
+    } else if (grey.depth() == CV_8U && of_level_.size() == kLevelsOfEightBits) {
+        map_bytes(grey, of_level_, depth);
     } else if (grey.depth() == CV_8U && !of_level_.empty()) {
         map_levels<std::uint8_t>(grey, of_level_, depth.levels);
     } else if (grey.depth() == CV_16U && !of_level_.empty()) {
@@ -162,24 +187,23 @@ DepthImage DepthScale::image_of(const cv::Mat& picture, DepthImage used) const {
     } else {
         cv::Mat numbers = grey;
         if (grey.type() != CV_32FC1) grey.convertTo(numbers, CV_32F);
-        for (int j = 0; j < grey.rows; ++j) map_row(numbers.ptr<float>(j), depth, j);
+        for (int j = 0; j < grey.rows; ++j) map_row(numbers.ptr<float>(j), grey.cols, out_of(j));
     }
     return depth;
 }
 
 /// Gives the same as operator() for each number, many at a time where possible.
-void DepthScale::map_row(const float* numbers, DepthImage& depth, int row) const {
-    float* const out = depth.levels.data() + depth.index(0, row);
+void DepthScale::map_row(const float* numbers, int count, float* out) const {
     if (meaning_.unit.value == DepthUnit::disparity) {
-        for (int i = 0; i < depth.columns; ++i) out[i] = (*this)(numbers[i]);
+        for (int i = 0; i < count; ++i) out[i] = (*this)(numbers[i]);
         return;
     }
     const Linear linear{
         meaning_.scale.value,           far_, per_one_, highest_, as_recorded_ ? -kUnbounded : 0.0,
         as_recorded_ ? kUnbounded : 1.0};
-    map_numbers(numbers, linear, depth.columns, out);
+    map_numbers(numbers, linear, count, out);
     for (const double none : meaning_.no_data.value)
-        for (int i = 0; i < depth.columns; ++i)
+        for (int i = 0; i < count; ++i)
             out[i] = static_cast<double>(numbers[i]) == none ? kNoData : out[i];
 }
 

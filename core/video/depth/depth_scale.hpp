@@ -44,15 +44,17 @@ class DepthScale {
     }
 
     /// The depth image of a picture of 1 to 4 channels of 8 or 16 bits, or real numbers. `used`: an
-    /// image whose memory it takes.
-    [[nodiscard]] DepthImage image_of(const cv::Mat& picture, DepthImage used = {}) const;
+    /// image whose memory it takes. `level_of_code`: the picture holds codes of 8 bits in one
+    /// channel, which stand for these levels; null: it holds levels.
+    [[nodiscard]] DepthImage image_of(const cv::Mat& picture, DepthImage used = {},
+                                      const std::vector<float>* level_of_code = nullptr) const;
     /// The picture's distances from the camera [mm], CV_32FC1, also beyond the range; NaN for no
     /// data. The meaning must be metric.
     [[nodiscard]] cv::Mat distances_mm(const cv::Mat& picture) const;
 
   private:
     [[nodiscard]] bool is_no_data(double level) const;
-    void map_row(const float* numbers, DepthImage& depth, int row) const;
+    void map_row(const float* numbers, int count, float* out) const;
 
     DepthMeaning meaning_;
     double highest_;

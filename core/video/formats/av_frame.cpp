@@ -116,13 +116,12 @@ cv::Mat stretched(const cv::Mat& levels, int bits) {
     return cv::min(cv::max(whole, 0.0), highest);
 }
 
-/// The same for 8 bits, by a table in one pass.
-cv::Mat stretched_bytes(const cv::Mat& levels) {
+/// The same for every code of 8 bits.
+std::shared_ptr<const std::vector<float>> stretched_codes() {
     cv::Mat every(1, 256, CV_8UC1);
     std::iota(every.begin<std::uint8_t>(), every.end<std::uint8_t>(), std::uint8_t{0});
-    cv::Mat whole;
-    cv::LUT(levels, stretched(every, 8), whole);
-    return whole;
+    const cv::Mat whole = stretched(every, 8);
+    return std::make_shared<const std::vector<float>>(whole.begin<float>(), whole.end<float>());
 }
 
 template <typename Sample>
@@ -227,20 +226,28 @@ cv::Mat FramePictures::colour(const AVFrame& frame) {
 }
 
 cv::Mat FramePictures::levels(const AVFrame& frame) {
+    const CodedLevels coded = coded_levels(frame);
+    if (!coded.level_of_code) return coded.picture;
+    cv::Mat whole;
+    cv::LUT(coded.picture, cv::Mat(*coded.level_of_code).reshape(1, 1), whole);
+    return whole;
+}
+
+CodedLevels FramePictures::coded_levels(const AVFrame& frame) {
     const AVPixFmtDescriptor* const kind = kind_of(frame);
     if (kind == nullptr) return {};
     if (!has_luma(*kind)) {
-        if (bits_of(frame) > 8) return converted(frame, AV_PIX_FMT_BGR48, CV_16UC3);
+        if (bits_of(frame) > 8) return {converted(frame, AV_PIX_FMT_BGR48, CV_16UC3)};
         const bool has_alpha = has(*kind, AV_PIX_FMT_FLAG_RGB) && has(*kind, AV_PIX_FMT_FLAG_ALPHA);
-        return has_alpha ? converted(frame, AV_PIX_FMT_BGRA, CV_8UC4)
-                         : converted(frame, AV_PIX_FMT_BGR24, CV_8UC3);
+        return {has_alpha ? converted(frame, AV_PIX_FMT_BGRA, CV_8UC4)
+                          : converted(frame, AV_PIX_FMT_BGR24, CV_8UC3)};
     }
-    cv::Mat levels = luma_of(frame, *kind);
-    if (!limited_) limited_ = is_limited(frame, *kind, levels);
-    if (*limited_)
-        levels = levels.depth() == CV_8U ? stretched_bytes(levels)
-                                         : stretched(levels, kind->comp[0].depth);
-    return levels;
+    const cv::Mat luma = luma_of(frame, *kind);
+    if (!limited_) limited_ = is_limited(frame, *kind, luma);
+    if (!*limited_) return {luma};
+    if (luma.depth() != CV_8U) return {stretched(luma, kind->comp[0].depth)};
+    if (!level_of_code_) level_of_code_ = stretched_codes();
+    return {luma, level_of_code_};
 }
 
 cv::Mat FramePictures::converted(const AVFrame& of, int pixel_format, int type) {

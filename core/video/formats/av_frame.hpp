@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/av/objects.hpp"
 
@@ -28,6 +30,14 @@ namespace dibhr {
 /// Rotated clockwise.
 [[nodiscard]] cv::Mat turned(const cv::Mat& picture, int quarter_turns);
 
+/// The levels of a frame as they are coded, where they are codes.
+struct CodedLevels {
+    cv::Mat picture{};
+    /// The levels of 8-bit codes of a limited ("TV") range, stretched to the full one without
+    /// rounding; null: the picture holds levels.
+    std::shared_ptr<const std::vector<float>> level_of_code{};
+};
+
 /// Converts the frames of one track.
 class FramePictures {
   public:
@@ -38,12 +48,15 @@ class FramePictures {
     /// pictures coded in red, green and blue these three, blue first, of 8 or 16 bits, and of 8
     /// bits also alpha where it is coded. Empty when it cannot be converted.
     [[nodiscard]] cv::Mat levels(const AVFrame& frame);
+    /// The same, but codes of 8 bits of a limited range are not stretched.
+    [[nodiscard]] CodedLevels coded_levels(const AVFrame& frame);
 
   private:
     [[nodiscard]] cv::Mat converted(const AVFrame& frame, int pixel_format, int type);
 
     AvOwned<SwsContext> scaler_{};
     std::optional<bool> limited_{};  // whether levels have a limited range; by the first picture
+    std::shared_ptr<const std::vector<float>> level_of_code_{};  // of such 8-bit codes
 };
 
 }  // namespace dibhr

@@ -31,6 +31,9 @@ struct TimedPicture {
     double decoding_s{0.0};                  ///< mean time to pass over a picture; 0: not known
     std::shared_ptr<const LivePair> pair{};  ///< of a live source: the pair that it is from
     std::shared_ptr<const VideoPicture> video{};  ///< instead of `picture`, after share_video()
+    /// `picture` holds codes of 8 bits, and these are their levels, after share_video(); null: it
+    /// holds levels.
+    std::shared_ptr<const std::vector<float>> level_of_code{};
 };
 
 /// Where the times of pictures are from.
@@ -102,7 +105,8 @@ class PictureSource {
     virtual void seek(double time_s) = 0;
     /// The next picture returned is one near it that is quick to decode.
     virtual void seek_near(double time_s) { seek(time_s); }
-    /// From the next picture on those of a colour video may come as its decoder made them.
+    /// Later pictures of a video may come as its decoder made them: of colour as `video`, of depth
+    /// with `level_of_code`.
     virtual void share_video() {}
     /// From the first picture on a device may decode, where this machine has one, and the picture
     /// is large enough to gain. Before the first picture is taken.

@@ -257,6 +257,12 @@ cv::Mat VideoDecoder::levels() {
     return turned(pictures_.levels(*frame_), quarter_turns_);
 }
 
+CodedLevels VideoDecoder::coded_levels() {
+    CodedLevels coded = pictures_.coded_levels(*frame_);
+    coded.picture = turned(coded.picture, quarter_turns_);
+    return coded;
+}
+
 std::shared_ptr<const VideoPicture> VideoDecoder::shared(double aspect) {
     return sharer_.picture(*frame_, quarter_turns_, aspect);
 }

@@ -70,6 +70,7 @@ class VideoDecoder {
     [[nodiscard]] double time_s() const noexcept;
     [[nodiscard]] cv::Mat colour();
     [[nodiscard]] cv::Mat levels();
+    [[nodiscard]] CodedLevels coded_levels();
     /// Its memory, with pixels of that shape; null: only colour() can give it.
     [[nodiscard]] std::shared_ptr<const VideoPicture> shared(double pixel_aspect);
     [[nodiscard]] int bits() const noexcept { return bits_of(*frame_); }

@@ -300,20 +300,38 @@ void VideoFile::measure_passing(std::int64_t frames, std::chrono::duration<doubl
 
 TimedPicture VideoFile::timed(cv::Mat picture) const {
     const double guess_s = (decoder_.marks_non_reference() ? kHalf : 1.0) * decoding_s_;
-    return {std::move(picture), time_s_, index_, passing_s_ > 0.0 ? passing_s_ : guess_s};
+    return {.picture = std::move(picture),
+            .time_s = time_s_,
+            .index = index_,
+            .decoding_s = passing_s_ > 0.0 ? passing_s_ : guess_s};
 }
 
 TimedPicture VideoFile::taken() {
     TimedPicture taken = timed({});
-    if (shares_video_) taken.video = decoder_.shared(pixel_aspect_);
-    if (!taken.video) taken.picture = retrieve();
+    if (shares_video_ && role_ == PictureRole::colour)
+        taken.video = decoder_.shared(pixel_aspect_);
+    else if (shares_video_ && is_coded_as_given())
+        take_coded(taken);
+    if (!taken.video && taken.picture.empty()) taken.picture = retrieve();
     return taken;
 }
 
-/// Also of the pictures that are given out next.
+/// Whether neither bits nor pixels of the levels are changed.
+bool VideoFile::is_coded_as_given() const noexcept {
+    return !decoder_.has_floats() && decoder_.bits() == facts_.bits && pixel_aspect_ == 1.0;
+}
+
+void VideoFile::take_coded(TimedPicture& taken) {
+    CodedLevels coded = decoder_.coded_levels();
+    taken.picture = std::move(coded.picture);
+    taken.level_of_code = std::move(coded.level_of_code);
+}
+
+/// Colours also of the pictures that are given out next.
 void VideoFile::share_video() {
-    if (role_ != PictureRole::colour || shares_video_) return;
+    if (shares_video_) return;
     shares_video_ = true;
+    if (role_ != PictureRole::colour) return;
     if (ahead_.size() == 1 && ahead_.front().index == index_ && !grabbed_)
         ahead_.front() = taken();
     else if (!ahead_.empty())
@@ -325,6 +343,7 @@ TimedPicture VideoFile::retrieve_kept(TimedPicture kept) {
     TimedPicture converted = taken();
     decoder_.swap_kept();
     kept.picture = std::move(converted.picture);
+    kept.level_of_code = std::move(converted.level_of_code);
     kept.video = std::move(converted.video);
     return kept;
 }

@@ -60,6 +60,8 @@ class VideoFile : public PictureSource {
     bool grab();         ///< decodes one frame: its time and index; false at the end
     cv::Mat retrieve();  ///< the picture of the grabbed frame
     [[nodiscard]] TimedPicture timed(cv::Mat picture) const;  ///< of the grabbed frame
+    [[nodiscard]] bool is_coded_as_given() const noexcept;
+    void take_coded(TimedPicture& taken);
     TimedPicture taken();                           ///< the same with its picture, or its memory
     TimedPicture retrieve_kept(TimedPicture kept);  ///< converts the picture that the decoder keeps
     void count_skipped();

@@ -192,7 +192,7 @@ std::optional<RawFrame> PairedMedia::frame_of(std::optional<TimedPicture> taken)
     if (!taken) return std::nullopt;
     keep_size(taken->picture);
     RawFrame frame;
-    frame.depth = scale_.image_of(taken->picture, images_.take_out());
+    frame.depth = scale_.image_of(taken->picture, images_.take_out(), taken->level_of_code.get());
     frame.media_s = taken->time_s;
     frame.index = taken->index;
     frame.colour_of_view = colour_of_view_;
@@ -319,8 +319,9 @@ void PairedMedia::apply_true_shape(RawFrame& frame, const cv::Mat& colour) {
     frame.colour = std::move(straight.colour);
 }
 
-/// Where nothing moves or resamples the colour.
+/// Colour where nothing moves or resamples it; depth where nothing else needs its levels.
 void PairedMedia::share_video() {
+    if (!cameras_) depth_->share_video();
     if (colour_ && !cameras_ && !shape_ && registration_ == Registration{}) colour_->share_video();
 }
 

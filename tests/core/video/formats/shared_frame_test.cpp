@@ -1,6 +1,7 @@
 // What a video's decoder made is drawn as it is: each form of samples in its own matrix and range.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -49,6 +50,14 @@ std::shared_ptr<const VideoPicture> first_of(const fs::path& file) {
     VideoDecoder decoder(file, 0);
     REQUIRE(decoder.decode());
     return decoder.shared(1.0);
+}
+
+/// As words, which NaN for no data compares equal in.
+std::vector<std::uint32_t> bits_of(const DepthImage& depth) {
+    std::vector<std::uint32_t> bits(depth.levels.size());
+    std::transform(depth.levels.begin(), depth.levels.end(), bits.begin(),
+                   [](float level) { return std::bit_cast<std::uint32_t>(level); });
+    return bits;
 }
 
 /// The largest difference of a channel, away from the edges, where chroma goes on in other ways.
@@ -241,6 +250,45 @@ TEST_CASE("shared frames are converted to the bits that a reader without sharing
     REQUIRE(pictures.size() == 13);
     for (std::size_t k = 0; k < pictures.size(); ++k)
         CHECK(pictures[k]->convert().rgb == expected[k].rgb);
+}
+
+TEST_CASE(
+    "a depth video of any range and size gives the same levels with shared frames as without") {
+    const std::string encoding =
+        GENERATE(as<std::string>{}, "-pix_fmt yuv420p -color_range tv -c:v libx264 -qp 0",
+                 "-pix_fmt yuv420p -color_range pc -c:v libx264 -qp 0",
+                 "-pix_fmt yuv420p -c:v libx264 -crf 30",
+                 "-pix_fmt yuv420p10le -color_range tv -c:v libx265 -x265-params log-level=none",
+                 "-pix_fmt yuv420p -color_range tv -c:v libx264 -qp 0 -aspect 3:1");
+    const DepthStatement said =
+        GENERATE(DepthStatement{.near = NearLevels::bright},
+                 DepthStatement{.near = NearLevels::dark, .range = DepthRange{30.0, 200.0}},
+                 DepthStatement{.unit = DepthUnit::disparity, .scale = 0.1},
+                 DepthStatement{.unit = DepthUnit::mm, .scale = 10.0, .no_data = {{0.0}}});
+    CAPTURE(encoding);
+    const TemporaryFolder folder;
+    const fs::path file = folder / "clip_depth.mp4";
+    ffmpeg("-f lavfi -i testsrc2=s=66x50:r=10:d=1 -vf format=gray " + encoding + " '" +
+           file.string() + "'");
+    const DepthRequest request{.find_out = true, .command_line = said};
+    const auto plain = open_media({}, file, request);
+    const auto shared = open_media({}, file, request);
+    shared->share_video();
+    const auto check_next = [&] {
+        const auto expected = plain->next();
+        const auto frame = shared->next();
+        REQUIRE(expected.has_value());
+        REQUIRE(frame.has_value());
+        CHECK(frame->media_s == expected->media_s);
+        CHECK(bits_of(frame->depth) == bits_of(expected->depth));
+        CHECK(frame->depth.highest_level == expected->depth.highest_level);
+    };
+    for (int n = 0; n < 5; ++n) check_next();
+    for (const double to_s : {0.8, 0.2}) {
+        plain->seek(to_s);
+        shared->seek(to_s);
+        check_next();
+    }
 }
 
 TEST_CASE(
