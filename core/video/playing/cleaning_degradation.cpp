@@ -9,7 +9,9 @@ namespace {
 
 constexpr int kSettled = 8;            ///< frames until costs tell whether there is time
 constexpr int kSettledFarAway = 3;     ///< where they are far from it
+constexpr int kSettledBeyond = 2;      ///< where they are beyond it
 constexpr double kFarAway = 2.0;       ///< times as long as there is time
+constexpr double kBeyond = 4.0;        ///< likewise
 constexpr double kRoomToReturn = 1.3;  ///< of a frame's time before steps come back
 
 }  // namespace
@@ -58,7 +60,10 @@ bool CleaningDegradation::update(const CleaningSteps& steps, const FrameCosts& c
     const double frame_s = frame_time_s(costs, 1.0);
     if (!(interval_s > 0.0) || !(frame_s > 0.0)) return false;
     const double free_s = interval_s / speed;
-    if (++frames_ < (frame_s > kFarAway * free_s ? kSettledFarAway : kSettled)) return false;
+    const int settled = frame_s > kBeyond * free_s    ? kSettledBeyond
+                        : frame_s > kFarAway * free_s ? kSettledFarAway
+                                                      : kSettled;
+    if (++frames_ < settled) return false;
     if (before_s_ > 0.0) times_as_long_[raised_from_] = std::exchange(before_s_, 0.0) / frame_s;
     const std::size_t above = next_above(steps);
     if (frame_s > free_s && above != level_) {
