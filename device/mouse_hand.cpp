@@ -78,10 +78,11 @@ HandReading MouseHand::read(const HandContext& context) noexcept {
     }
     const Vec3 before = position_in_grid_;
     move(anchor, dt_s, context.pixel_pitch_mm);
-    if (!pressing_) keep_clear_of_cliffs(context.surface, before);
+    if (!pressing_) keep_clear(context, before, dt_s);
     climb(context, before.z, dt_s);
     const bool above = is_above(context.surface);
     if (pressing_ && !above) felt_s_ += dt_s;
+    clear_ = above && !pressing_;
     resting_ = !valid_target_.pressed && !next_click_ && clicks_.size() == 0 &&
                glm::length(velocity_px_per_s_) < kStill_px_per_s &&
                glm::distance(position_in_grid_, anchor) < kStill_px;
@@ -245,8 +246,10 @@ void MouseHand::climb(const HandContext& context, double before_px, double dt_s)
 }
 
 // Holds the hand beside a place that is still too high to pass over, while the spring lifts it. The
-// elevation of that place is kept, because the few places checked ahead may all miss it.
-void MouseHand::keep_clear_of_cliffs(const DepthSurface& surface, Vec3 before) noexcept {
+// elevation of that place is kept, because the few places checked ahead may all miss it. A surface
+// that rises, as that of a video does, takes a hand along that was clear of it.
+void MouseHand::keep_clear(const HandContext& context, Vec3 before, double dt_s) noexcept {
+    const DepthSurface& surface = context.surface;
     const double clearance = options_.hover_px / 3.0;
     const double here = surface.elevation_at(before.x, before.y);
     double below = surface.elevation_at(position_in_grid_.x, position_in_grid_.y);
@@ -256,8 +259,11 @@ void MouseHand::keep_clear_of_cliffs(const DepthSurface& surface, Vec3 before) n
         velocity_px_per_s_ = {0.0, 0.0, velocity_px_per_s_.z};
         below = here;
     }
-    const double floor = std::min(before.z, below + clearance);
-    if (position_in_grid_.z < floor) {  // still sinking from somewhere higher
+    const double fastest_px = clear_ && context.pixel_pitch_mm > 0.0
+                                  ? options_.max_speed_mm_per_s / context.pixel_pitch_mm * dt_s
+                                  : 0.0;
+    const double floor = std::min(before.z + fastest_px, below + clearance);
+    if (position_in_grid_.z < floor) {  // sinking from somewhere higher, or overtaken
         position_in_grid_.z = floor;
         velocity_px_per_s_.z = 0.0;
     }

@@ -47,7 +47,8 @@ struct MouseHandOptions {
 /// Follows the cursor over the surface. Stable for ticks up to 20 ms against 2 N/mm,
 /// and up to 10 ms against 10 N/mm.
 ///
-/// A hovering hand first rises, then moves on, so that it does not run into a cliff. Pressing
+/// A hovering hand first rises, then moves on, so that it does not run into a cliff; a surface that
+/// rises takes it along. Pressing
 /// begins when the hand has reached the cursor. From then on the depth is measured from the surface
 /// under the hand itself, so that a drag across a cliff does not press into the cliff.
 ///
@@ -106,7 +107,8 @@ class MouseHand final : public Device {
     /// Where the hand's spring pulls it.
     [[nodiscard]] Vec3 anchor_in_grid(const DepthSurface& surface) const noexcept;
     void move(Vec3 anchor, double dt_s, double pixel_pitch_mm) noexcept;
-    void keep_clear_of_cliffs(const DepthSurface& surface, Vec3 before) noexcept;
+    /// `before`: the goal in the last tick.
+    void keep_clear(const HandContext& context, Vec3 before, double dt_s) noexcept;
 
     DeviceSpecification specification_{};
     MouseHandOptions options_{};
@@ -131,6 +133,7 @@ class MouseHand final : public Device {
     bool over_edge_{false};          // the hand is behind an edge on which the proxy still lies
     double stopped_s_{0.0};          // how long a wall has stopped the proxy
     bool pressing_{false};
+    bool clear_{false};  // the hovering hand was above the surface in the last tick
     bool placed_{false};
     bool resting_{false};
 };

@@ -155,6 +155,22 @@ TEST_CASE("a hovering hand never touches a still relief, however the cursor jump
     CHECK(least_clearance > 0.0);
 }
 
+TEST_CASE("a surface that rises takes a hovering hand along and does not touch it", "[mouse]") {
+    dibhr::MouseHand hand;
+    hand.target().publish({.cursor_in_grid = {20.0, 15.0}, .pointing = true});
+    double least_clearance_px = 1e9;
+    for (int tick = 0; tick < 3000; ++tick) {
+        const double t_s = 0.001 * tick;  // up and down by 100 px, twice a second, and by noise
+        const double elevation_px =
+            80.0 + 50.0 * std::sin(12.566 * t_s) + 4.0 * std::sin(190.0 * t_s);
+        const SmallRelief relief(40, 30, [&](int, int) { return elevation_px; });
+        const HandReading reading = hand.read({0.001, relief.surface(), kPitch_mm});
+        CHECK(reading.lifted);
+        least_clearance_px = std::min(least_clearance_px, reading.goal_in_grid.z - elevation_px);
+    }
+    CHECK(least_clearance_px > 1.0);
+}
+
 TEST_CASE("a cliff or a needle on the way does not stop a hovering hand for long", "[mouse]") {
     const SmallRelief wall(400, 300, [](int i, int) { return i == 201 ? 250.0 : 10.0; });
     HandInLoop loop(wall);
