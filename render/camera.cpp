@@ -16,6 +16,8 @@ namespace {
 constexpr double kHomeYaw_rad = 20.0 * std::numbers::pi / 180.0;
 constexpr double kHomePitch_rad = 12.0 * std::numbers::pi / 180.0;
 constexpr double kMostPitch_rad = 85.0 * std::numbers::pi / 180.0;
+constexpr double kFrontYaw_rad = 60.0 * std::numbers::pi / 180.0;
+constexpr double kFrontPitch_rad = 40.0 * std::numbers::pi / 180.0;
 constexpr double kDistanceInRadii = 3.2;  // a weak perspective, about 35 degrees of view
 constexpr double kMargin = 1.03;          // free space around the relief
 constexpr double kLeastZoom = 0.2;
@@ -51,6 +53,11 @@ void Camera::reset() {
 void Camera::orbit(double yaw_rad, double pitch_rad) {
     yaw_rad_ += yaw_rad;
     pitch_rad_ = std::clamp(pitch_rad_ + pitch_rad, -kMostPitch_rad, kMostPitch_rad);
+}
+
+void Camera::keep_in_front() {
+    yaw_rad_ = std::clamp(yaw_rad_, -kFrontYaw_rad, kFrontYaw_rad);
+    pitch_rad_ = std::clamp(pitch_rad_, -kFrontPitch_rad, kFrontPitch_rad);
 }
 
 void Camera::pan(double right_px, double up_px, int viewport_height) {

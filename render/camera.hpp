@@ -24,6 +24,10 @@ class Camera {
     /// +-85 degrees. Has no effect in the straight projection.
     void orbit(double yaw_rad, double pitch_rad);
 
+    /// Turns back so far that the relief is seen from the front: within 60 degrees of the recording
+    /// axis to the sides and 40 up and down.
+    void keep_in_front();
+
     /// Moves the picture by so many screen pixels (in the plane through the middle of the relief;
     /// exact in a window no narrower, in proportion, than the relief).
     void pan(double right_px, double up_px, int viewport_height);

@@ -256,6 +256,12 @@ void draw_rows(ViewerState& state, ImVec2 size) {
             draw_row(state, entry_in(state.ui.dialog, static_cast<std::size_t>(row)), wide);
     }
     ImGui::PopStyleColor();
+    if (state.ui.dialog.rows.entries.empty()) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        draw_dimmed(state.ui.dialog.typed.front() == '\0' ? "Nothing here can be opened"
+                                                          : "No name here contains that");
+    }
     ImGui::EndTable();
     take_list_keys(state.ui.dialog);
 }

@@ -176,6 +176,9 @@ void draw_speech(ViewerState& state) {
     flag_row("Speak", state.settings.speak, Settings{}.speak,
              "What is touched, messages and captions are spoken, through speech-dispatcher "
              "(--speak)");
+    if (!state.settings.speak || state.ui.speech_trouble.empty()) return;
+    text_beside_flag("nothing is spoken");
+    add_tooltip(state.ui.speech_trouble.c_str());
 }
 
 std::string pads_text(const PadInfo& pads, bool coils_move) {

@@ -158,8 +158,11 @@ void draw_live(const ViewerState& state, Transport& player) {
 void draw_prepared(ViewerState& state) {
     const PlaybackStatus& playback = state.media.playback;
     if (state.ui.preparing) {
-        ImGui::ProgressBar(static_cast<float>(*state.ui.preparing), {-button_width("Cancel"), 0.0F},
-                           "Preparing");
+        const auto& [share, file] = *state.ui.preparing;
+        const std::string words = file.empty() ? "Preparing" : "Preparing " + file;
+        ImGui::ProgressBar(static_cast<float>(share), {-button_width("Cancel"), 0.0F},
+                           words.c_str());
+        if (!file.empty()) add_tooltip("Another recording than the shown one");
         ImGui::SameLine();
         if (item::button("Cancel##preparing")) state.commands.push(PrepareRecording{});
     } else if (playback.prepared) {

@@ -117,6 +117,12 @@ struct ClipInfo {
     bool finishing{false};  ///< ended; its file is not complete yet
 };
 
+/// The recording that is being prepared.
+struct PreparingShown {
+    double share{0.0};   ///< that is done
+    std::string file{};  ///< its name, where it is not the shown one; else empty
+};
+
 /// The report of a session.
 struct ReportShown {
     std::filesystem::path session{};
@@ -259,7 +265,8 @@ struct UiState {
     bool statistics{false};                         ///< shown over the relief
     ReportShown report{};                           ///< the last one of this window
     std::optional<ClipInfo> clip{};                 ///< nothing: no clip is made
-    std::optional<double> preparing{};              ///< the share that is done; nothing: none is
+    std::optional<PreparingShown> preparing{};      ///< nothing: none is prepared
+    std::string speech_trouble{};                   ///< why nothing is spoken; empty: it is
     std::optional<DepthOffer> depth_offer{};        ///< nothing: no video lacks depth
     std::optional<DepthQuestion> depth_question{};  ///< nothing: the depth is sure, or answered
     std::optional<StripHistory> paused_strips{};    ///< the values of paused charts

@@ -17,6 +17,7 @@ namespace {
 constexpr float kLineHeight = 1.3F;   // of the text's
 constexpr float kMargin = 1.4F;       // above and below a page [em]
 constexpr float kBetween = 1.1F;      // two parts of it [em]
+constexpr float kDescender = 0.25F;   // of the text's height
 constexpr float kWidestText = 36.0F;  // for easy reading [em]
 constexpr float kWidest = 0.94F;      // used share of the window's width
 constexpr float kTallestPicture = 0.42F;
@@ -181,7 +182,8 @@ MeasuredBody measured(const PageBody& body) {
         whole.blocks.push_back(text_block(text.text, widest, text.times));
         whole.height += whole.blocks.back().size.y + between;
     }
-    whole.height = std::max(0.0F, whole.height);
+    // Below the last line's base the letters g and y go on.
+    whole.height = std::max(0.0F, whole.height) + kDescender * em();
     return whole;
 }
 

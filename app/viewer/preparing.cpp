@@ -57,7 +57,9 @@ bool ViewerPreparing::shows_prepared(const ViewerState& state) const {
 std::optional<PreparingEnd> ViewerPreparing::poll(ViewerState& state) {
     state.ui.preparing.reset();
     if (!watch_) return {};
-    state.ui.preparing = watch_->share;
+    state.ui.preparing = {
+        .share = watch_->share,
+        .file = shows_prepared(state) ? std::string() : prepares_.colour.filename().string()};
     auto end = making_.take();
     if (!end) return {};
     watch_.reset();

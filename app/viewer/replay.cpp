@@ -98,6 +98,16 @@ void ViewerReplay::end(ViewerState& state) {
     state.touch.strips = {};
 }
 
+namespace {
+
+/// Whether a person went to another moment: fewer ticks are left out by a recorder that was late.
+bool is_jump(std::int64_t from_tick, std::int64_t to_tick) {
+    constexpr std::int64_t kMostLeftOut = 100;
+    return to_tick < from_tick || to_tick > from_tick + kMostLeftOut;
+}
+
+}  // namespace
+
 void ViewerReplay::advance(ViewerState& state, SessionPlayer::Time now) {
     player_->advance(now, [&state, this](const SessionMoment& moment) {
         const Touch touch = touch_of(moment);
@@ -105,6 +115,7 @@ void ViewerReplay::advance(ViewerState& state, SessionPlayer::Time now) {
         const bool goes_on =
             tick.tick == passed_tick_ + 1 && !tick.from_zero && !tick.releases_contact;
         const double pitch_mm = state.settings.touch.coupling.pixel_pitch_mm;
+        if (is_jump(passed_tick_, tick.tick)) state.touch.strips = {};
         state.touch.strips.add(
             strip_of(passed_, touch, goes_on ? tick.dt_s : 0.0, tick.lateness_us, pitch_mm));
         passed_ = touch;

@@ -372,8 +372,10 @@ void Viewer::log_messages() {
 
 void Viewer::speak() {
     const Spoken now = spoken_of(state_, now_s());
+    if (!state_.settings.speak) state_.ui.speech_trouble.clear();
     if (const auto trouble = speaking_.follow(now, now_s(), state_.settings.speak)) {
         print_warning(*trouble);
+        state_.ui.speech_trouble = *trouble;
         if (state_.ui.kiosk)
             state_.ui.kiosk->can_repeat = false;
         else

@@ -136,7 +136,13 @@ std::optional<Answer> Viewer::perform_with_keyboard(Action action) {
     }
     glm::dvec2 place_px = window_.pointer().position_px;
     place_px.y -= panes_height(state_);
-    key_hand_.begin(place_px, relief_viewport());
+    const glm::ivec2 viewport = relief_viewport();
+    const bool on_relief =
+        shown_.makes_surface() &&
+        surface_under(camera_.ray_under(place_px, viewport),
+                      shown_.drawn_surface(state_.shape(), state_.touch.bump.get()));
+    if (!on_relief) place_px = 0.5 * glm::dvec2(viewport);
+    key_hand_.begin(place_px, viewport);
     return Answer{"Arrows move the hand, Space presses, Enter keeps pressing" +
                   state_.keys.key_hint(Action::touch_by_keys, " ends it")};
 }
@@ -250,10 +256,13 @@ void Viewer::use_clicks(std::span<const PointerClick> clicks, double wheel_steps
 void Viewer::use_pointer(const Pointer& now, double wheel_steps, EventTimes::Time at) {
     const glm::ivec2 viewport = relief_viewport();
     Pointer pointer = now;
-    const bool over_panel = !key_hand_.on() && gui_.covers(pointer.position_px);
+    // Until it is drawn nobody knows where the dialog is.
+    const bool opens_dialog = state_.ui.dialog.shown && state_.ui.dialog.pictures_to_focus > 0;
+    const bool over_panel = !key_hand_.on() && (opens_dialog || gui_.covers(pointer.position_px));
     const auto on_panes = place_on_panes(state_, pointer.position_px);
     pointer.position_px.y -= panes_height(state_);  // the relief is below the panes
     PointerUse use = mouse_.use(pointer, wheel_steps, over_panel, viewport, camera_);
+    if (state_.ui.kiosk) camera_.keep_in_front();  // visitors have no key that goes back
     pressed_deeper_ = pressed_deeper_ || (use.pressed && use.wheel_steps != 0.0);
     if (state_.touch.depth_in_question) use = {};  // the hand stays where it is
     pointed_at_.reset();

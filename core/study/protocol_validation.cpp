@@ -137,7 +137,8 @@ void require_valid_block(const PageTable& table, const Block& block) {
         table.refuse("answers", "a staircase has two answers: yes and no");
     for (const StudyItem& item : block.items)
         if (block.intervals() > 1 && item.reference == item.comparison && !vary.any())
-            table.refuse("form", form_text(block.form) + " compares two: give pairs, or vary");
+            table.refuse("form", form_text(block.form) +
+                                     " compares two: give pairs = [[\"a\", \"b\"]], or vary");
     if (block.most_trials() > kMostTrials)
         table.refuse("repetitions",
                      "the block has more than " + std::to_string(kMostTrials) + " trials");

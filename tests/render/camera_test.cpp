@@ -164,6 +164,19 @@ TEST_CASE("a drag to the right and down turns the near side right and down") {
     CHECK(after.y > before.y);
 }
 
+TEST_CASE("a camera that is kept in front of the relief looks at its near side", "[camera]") {
+    Camera camera;
+    camera.frame_relief(640, 480, 255.0);
+    const Camera::View home = camera.view();
+    camera.keep_in_front();
+    CHECK(camera.view() == home);
+    camera.orbit(GENERATE(-9.0, 9.0), GENERATE(-2.0, 2.0));
+    camera.keep_in_front();
+    const Camera::Ray ray = camera.ray_under({450.0, 350.0}, {900, 700});
+    const Vec3 way = ray.far_in_grid - ray.near_in_grid;
+    CHECK(way.z < -0.35 * glm::length(way));
+}
+
 TEST_CASE("panning by some pixels moves the middle of the relief by as many") {
     const auto projection = GENERATE(Camera::Projection::perspective, Camera::Projection::straight);
     Camera camera;

@@ -172,6 +172,24 @@ TEST_CASE("keys move the hand over the relief and press it and a mouse click tak
     CHECK(farthest > first + 2.0);
 }
 
+TEST_CASE(
+    "the keys' hand begins in the middle of the picture where the pointer is beside the relief",
+    "[keyboard]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    write_depth_png(folder / "slope_depth.png", 64, 48, 100, 2);
+    WindowProgram viewer =
+        desk.start_viewer(folder, {"slope_depth.png", "--raw-depth", "--device", "mouse"});
+    viewer.wait_for_surface();
+    viewer.act("mousemove 60 690 key t");
+    viewer.wait_until([](const Seen& now) { return now.keys_move_hand; });
+    viewer.act("keydown space");
+    viewer.wait_until([](const Seen& now) { return now.contact; });
+    viewer.act("keyup space");
+    desk.press("key q");
+    CHECK(viewer.wait() == 0);
+}
+
 TEST_CASE("a newcomer without a mouse opens touches paints explains records replays and clips",
           "[keyboard]") {
     const Desk desk;

@@ -75,7 +75,7 @@ TEST_CASE("a mistake in a protocol is told with its line and with what is allowe
         {kHead + kBlock + "conditions = [\"d\"]\n", 11,
          "no condition is called 'd': there are a, b"},
         {kHead + kBlock + "pairs = [[\"a\", \"b\"]]\n", 11, "has one condition"},
-        {kHead + pairs, 9, "compares two: give pairs, or vary"},
+        {kHead + pairs, 9, "compares two: give pairs = [[\"a\", \"b\"]], or vary"},
         {kHead + pairs + "pairs = [[\"a\"]]\n", 11, "a list of two conditions each"},
         {kHead + kBlock + "order = \"latn\"\n", 11, "did you mean latin?"},
         {kHead + kBlock + "repetitions = 0\n", 11, "a whole number from 1 to 10000"},
