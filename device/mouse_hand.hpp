@@ -48,9 +48,9 @@ struct MouseHandOptions {
 /// and up to 10 ms against 10 N/mm.
 ///
 /// A hovering hand first rises, then moves on, so that it does not run into a cliff; a surface that
-/// rises takes it along. Pressing
-/// begins when the hand has reached the cursor. From then on the depth is measured from the surface
-/// under the hand itself, so that a drag across a cliff does not press into the cliff.
+/// rises takes it along. Pressing begins when the hand has reached the cursor. From then on the
+/// depth is measured from the surface under the hand itself, so that a drag across a cliff does not
+/// press into the cliff.
 ///
 /// A press lasts until it was felt, however short the click was. Where a wall stops the proxy of a
 /// pressing hand, the hand climbs it as a finger would: it rises over the surface within kClimb_s,

@@ -102,9 +102,14 @@ struct OpenDialog {
     bool scroll_pending{false};
 };
 
+/// Whether it was requested and does not have the keyboard yet.
+[[nodiscard]] inline bool is_opening(const OpenDialog& dialog) {
+    return dialog.shown && dialog.pictures_to_focus > 0;
+}
+
 /// Whether Enter and the arrow keys go to the dialog, also before it has the keyboard.
 [[nodiscard]] inline bool takes_keys(const OpenDialog& dialog) {
-    return dialog.shown && (dialog.in_front || dialog.pictures_to_focus > 0);
+    return (dialog.shown && dialog.in_front) || is_opening(dialog);
 }
 
 /// What a picture or clip of the window contains.

@@ -182,7 +182,7 @@ MeasuredBody measured(const PageBody& body) {
         whole.blocks.push_back(text_block(text.text, widest, text.times));
         whole.height += whole.blocks.back().size.y + between;
     }
-    // Below the last line's base the letters g and y go on.
+    // Else the pane cuts off the last line's g and y.
     whole.height = std::max(0.0F, whole.height) + kDescender * em();
     return whole;
 }

@@ -10,6 +10,12 @@ namespace dibhr {
 
 namespace {
 
+/// Whether a person went to another moment: fewer ticks are left out by a recorder that was late.
+bool is_jump(std::int64_t from_tick, std::int64_t to_tick) {
+    constexpr std::int64_t kMostLeftOut = 100;
+    return to_tick < from_tick || to_tick > from_tick + kMostLeftOut;
+}
+
 /// A session stores the cell; the proxy's place in it gives the TRIANGLE or EDGE.
 Primitive recorded_primitive(const TickRecord& tick) {
     Primitive primitive{
@@ -97,16 +103,6 @@ void ViewerReplay::end(ViewerState& state) {
     state.touch.others.clear();
     state.touch.strips = {};
 }
-
-namespace {
-
-/// Whether a person went to another moment: fewer ticks are left out by a recorder that was late.
-bool is_jump(std::int64_t from_tick, std::int64_t to_tick) {
-    constexpr std::int64_t kMostLeftOut = 100;
-    return to_tick < from_tick || to_tick > from_tick + kMostLeftOut;
-}
-
-}  // namespace
 
 void ViewerReplay::advance(ViewerState& state, SessionPlayer::Time now) {
     player_->advance(now, [&state, this](const SessionMoment& moment) {

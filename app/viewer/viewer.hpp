@@ -289,6 +289,8 @@ class Viewer {
     [[nodiscard]] bool over();
     [[nodiscard]] bool played_to_the_end() const;
     [[nodiscard]] glm::ivec2 relief_viewport() const;
+    /// The place of the drawn surface that the ray meets first; nothing: none.
+    [[nodiscard]] std::optional<Vec3> relief_under(const Camera::Ray& ray) const;
 
     // touch_ is last: it is destroyed first, so that no force is sent while the rest is destroyed.
     ViewOptions options_;

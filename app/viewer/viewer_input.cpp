@@ -27,7 +27,7 @@ bool Viewer::keys_are_taken() const {
 bool Viewer::text_opens() const {
     const bool by_keys = gui_.focus().on() && gui_.in_use() &&
                          (state_.ui.focus.kind == "slider" || state_.ui.focus.kind == "text");
-    return by_keys || (state_.ui.dialog.shown && state_.ui.dialog.pictures_to_focus > 0);
+    return by_keys || is_opening(state_.ui.dialog);
 }
 
 /// Of the hand by keyboard, while no panel has the keyboard.
@@ -137,11 +137,7 @@ std::optional<Answer> Viewer::perform_with_keyboard(Action action) {
     glm::dvec2 place_px = window_.pointer().position_px;
     place_px.y -= panes_height(state_);
     const glm::ivec2 viewport = relief_viewport();
-    const bool on_relief =
-        shown_.makes_surface() &&
-        surface_under(camera_.ray_under(place_px, viewport),
-                      shown_.drawn_surface(state_.shape(), state_.touch.bump.get()));
-    if (!on_relief) place_px = 0.5 * glm::dvec2(viewport);
+    if (!relief_under(camera_.ray_under(place_px, viewport))) place_px = 0.5 * glm::dvec2(viewport);
     key_hand_.begin(place_px, viewport);
     return Answer{"Arrows move the hand, Space presses, Enter keeps pressing" +
                   state_.keys.key_hint(Action::touch_by_keys, " ends it")};
@@ -252,13 +248,18 @@ void Viewer::use_clicks(std::span<const PointerClick> clicks, double wheel_steps
     use_pointer(pointer, wheel_steps + key_hand_.take_wheel(), now);
 }
 
+std::optional<Vec3> Viewer::relief_under(const Camera::Ray& ray) const {
+    if (!shown_.makes_surface()) return std::nullopt;
+    return surface_under(ray, shown_.drawn_surface(state_.shape(), state_.touch.bump.get()));
+}
+
 /// `at`: when the pointer was so.
 void Viewer::use_pointer(const Pointer& now, double wheel_steps, EventTimes::Time at) {
     const glm::ivec2 viewport = relief_viewport();
     Pointer pointer = now;
-    // Until it is drawn nobody knows where the dialog is.
-    const bool opens_dialog = state_.ui.dialog.shown && state_.ui.dialog.pictures_to_focus > 0;
-    const bool over_panel = !key_hand_.on() && (opens_dialog || gui_.covers(pointer.position_px));
+    // The place of a dialog is known once it is drawn.
+    const bool over_panel =
+        !key_hand_.on() && (is_opening(state_.ui.dialog) || gui_.covers(pointer.position_px));
     const auto on_panes = place_on_panes(state_, pointer.position_px);
     pointer.position_px.y -= panes_height(state_);  // the relief is below the panes
     PointerUse use = mouse_.use(pointer, wheel_steps, over_panel, viewport, camera_);
@@ -269,9 +270,7 @@ void Viewer::use_pointer(const Pointer& now, double wheel_steps, EventTimes::Tim
     const Camera::Ray ray = camera_.ray_under(pointer.position_px, viewport);
     const bool measures = state_.ui.ruler && !state_.ui.explained;
     const bool paints = state_.ui.brush.on && !state_.ui.explained && !state_.touch.replay;
-    if (use.over_relief && (measures || paints || !use.pressed) && shown_.makes_surface())
-        pointed_at_ =
-            surface_under(ray, shown_.drawn_surface(state_.shape(), state_.touch.bump.get()));
+    if (use.over_relief && (measures || paints || !use.pressed)) pointed_at_ = relief_under(ray);
     if (on_panes && !over_panel && !use.pressed) pointed_at_ = on_panes;
     if (paints) {
         paint(use);

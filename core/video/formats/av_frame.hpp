@@ -30,7 +30,7 @@ namespace dibhr {
 /// Rotated clockwise.
 [[nodiscard]] cv::Mat turned(const cv::Mat& picture, int quarter_turns);
 
-/// The levels of a frame as they are coded, where they are codes.
+/// A frame's levels, or codes that stand for them.
 struct CodedLevels {
     cv::Mat picture{};
     /// The levels of 8-bit codes of a limited ("TV") range, stretched to the full one without
