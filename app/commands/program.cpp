@@ -1,8 +1,6 @@
 // Turns how a command ended into an exit code.
 #include "app/commands/program.hpp"
 
-#include <malloc.h>
-
 #include <cerrno>
 #include <csignal>
 #include <exception>
@@ -18,6 +16,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/files/terminal.hpp"
 #include "core/files/write_failure.hpp"
+#include "core/realtime/memory.hpp"
 #include "core/realtime/priority_broker.hpp"
 
 namespace dibhr {
@@ -70,11 +69,7 @@ Grant later_priority(pid_t thread, const std::stop_token& stop) {
 }  // namespace
 
 int run_program(int argc, char** argv, const PictureHook& after_picture) {
-    // One heap for all threads: memory that one frees, the others and the system can use.
-    mallopt(M_ARENA_MAX, 1);
-    // Images of 4K leave no holes in it; smaller ones reuse its memory.
-    mallopt(M_MMAP_THRESHOLD, 16 << 20);
-    mallopt(M_TRIM_THRESHOLD, 64 << 20);
+    prepare_heap();
     // A closed pipe is an ordinary end, not a signal.
     std::signal(SIGPIPE, SIG_IGN);
     // A parent's SIG_IGN is inherited; the kernel would then keep no exit status of children.

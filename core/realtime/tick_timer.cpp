@@ -3,7 +3,6 @@
 
 #include <pthread.h>
 #include <sched.h>
-#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -14,13 +13,12 @@
 #include <cerrno>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <cstring>
 #include <ctime>
-#include <fstream>
 #include <string>
 #include <utility>
 
+#include "core/realtime/memory.hpp"
 #include "core/realtime/time_slice.hpp"
 
 namespace dibhr {
@@ -63,43 +61,6 @@ Grant ask_for_priority() {
     if (lower > 0 && set_fifo(lower)) return {true, "SCHED_FIFO " + std::to_string(lower)};
     if (error == EPERM) return {false, "refused: needs rtprio in /etc/security/limits.conf"};
     return {false, std::string("refused: ") + std::strerror(error)};
-}
-
-bool may_lock_anything() {
-    constexpr int kCapIpcLock = 14;
-    std::ifstream status("/proc/self/status");
-    for (std::string line; std::getline(status, line);) {
-        if (!line.starts_with("CapEff:")) continue;
-        const unsigned long long effective = std::strtoull(line.c_str() + 7, nullptr, 16);
-        return ((effective >> kCapIpcLock) & 1U) != 0;
-    }
-    return false;
-}
-
-// With a small limit MCL_FUTURE would make later allocations of every thread fail, which is worse
-// than a page fault now and then: so the limit must hold all the memory there is.
-bool limit_is_ample(rlim_t limit_bytes) {
-    if (limit_bytes == RLIM_INFINITY) return true;
-    const auto pages = static_cast<rlim_t>(sysconf(_SC_PHYS_PAGES));
-    return limit_bytes >= pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
-}
-
-Grant ask_for_memory_lock() {
-    rlimit allowed{};
-    getrlimit(RLIMIT_MEMLOCK, &allowed);
-    if (!limit_is_ample(allowed.rlim_cur) && !may_lock_anything()) {
-        return {false, "refused: only " + std::to_string(allowed.rlim_cur / 1024) +
-                           " KiB may be locked; needs memlock unlimited in "
-                           "/etc/security/limits.conf"};
-    }
-    int what = MCL_CURRENT | MCL_FUTURE;
-#ifdef MCL_ONFAULT
-    // Lock what is used, when it is first used: not the gigabytes that drivers and decoders only
-    // reserve.
-    what |= MCL_ONFAULT;
-#endif
-    if (mlockall(what) == 0) return {true, "locked"};
-    return {false, std::string("refused: ") + std::strerror(errno)};
 }
 
 // Avoids page faults in the first deep call of a tick.

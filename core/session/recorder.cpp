@@ -1,7 +1,6 @@
 // Writes every tick into one SQLite file from its own thread, so that no tick waits for a disk.
 #include "core/session/recorder.hpp"
 
-#include <malloc.h>
 #include <pthread.h>
 
 #include <algorithm>
@@ -358,11 +357,7 @@ Recorder::Recorder(const std::filesystem::path& file, TickRing& ring, const Sess
     : implementation_(
           std::make_unique<Implementation>(file, ring, facts, heart, std::move(now), surface)) {}
 
-Recorder::~Recorder() {
-    implementation_.reset();
-    // Returns SQLite's memory to the system. Takes a third of a millisecond.
-    ::malloc_trim(0);
-}
+Recorder::~Recorder() = default;
 
 void Recorder::parameters(const SessionParameters& parameters,
                           std::shared_ptr<const BumpMap> bump) {

@@ -1,7 +1,6 @@
 // The thread that cleans and publishes frames; decoding has its own thread.
 #include "core/video/playing/player.hpp"
 
-#include <malloc.h>
 #include <pthread.h>
 
 #include <condition_variable>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/realtime/memory.hpp"
 #include "core/video/playing/frame_reader.hpp"
 #include "core/video/playing/live_playback.hpp"
 #include "core/video/playing/playback.hpp"
@@ -284,7 +284,7 @@ void Player::play_media(std::unique_ptr<Media> media, std::uint32_t number,
         player->post({[=](Playback& playback, Time) {
             playback.close();
             player->live.open(std::move(*shared), number, maps, live_update);
-            malloc_trim(0);
+            return_unused_memory();
         }});
         return;
     }
@@ -297,7 +297,7 @@ void Player::play_media(std::unique_ptr<Media> media, std::uint32_t number,
         playback.open(std::move(*reader), now);
         player->live.close();
         // Else the memory of the media before stays with the program.
-        malloc_trim(0);
+        return_unused_memory();
     }});
 }
 
