@@ -184,7 +184,7 @@ SingleFrameDepth CleaningChain::clean_frame(DepthImage image, const CleaningPlan
                                             std::span<const HeldLevel> held,
                                             const ColourImage* colour) {
     static std::atomic<std::uint64_t> made{0};
-    SingleFrameDepth single_frame{std::move(image), {}, {}, 0, -1, ++made};
+    SingleFrameDepth single_frame{std::move(image), {}, {}, 0, plan.steps, -1, ++made};
     const bool touchable = is_touchable(single_frame.depth);
     if (touchable && plan.steps.smooth_outlines) single_frame.teeth = teeth_of(single_frame.depth);
     interpolated_.clear();

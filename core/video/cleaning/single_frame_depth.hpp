@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
+#include "core/video/frames/cleaning_options.hpp"
 
 namespace dibhr {
 
@@ -28,6 +29,7 @@ struct SingleFrameDepth {
     std::vector<std::uint8_t> filled{};  ///< 1 for pixels that had no data; empty: all had data
     std::vector<std::uint8_t> unseen{};  ///< 1 for pixels never seen; empty: all were seen
     std::size_t teeth{0};                ///< of the recorded outlines, if they are smoothed
+    CleaningSteps steps{};               ///< of the plan that it was cleaned for
     /// By its time in the media, so that groups of frames are the same however it was reached;
     /// below 0: not known.
     std::int64_t number{-1};

@@ -1,17 +1,20 @@
 // Weighs the steps of the cleaning against the frames that are shown.
 #include "core/video/playing/cleaning_degradation.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace dibhr {
 
 namespace {
 
-constexpr int kSettled = 8;            ///< frames until costs tell whether there is time
-constexpr int kSettledFarAway = 3;     ///< where they are far from it
-constexpr int kSettledBeyond = 2;      ///< where they are beyond it
-constexpr double kFarAway = 2.0;       ///< times as long as there is time
-constexpr double kBeyond = 4.0;        ///< likewise
+constexpr int kSettled = 8;             ///< frames until costs tell whether there is time
+constexpr int kSettledFarAway = 3;      ///< where they are far from it
+constexpr int kSettledBeyond = 2;       ///< where they are beyond it
+constexpr double kFarAway = 2.0;        ///< times as long as there is time
+constexpr double kBeyond = 4.0;         ///< likewise
+constexpr int kLongestPatience = 4096;  ///< frames
+constexpr int kSoon = 8;  ///< times the patience: before that, steps had come back too early
 constexpr double kRoomToReturn = 1.3;  ///< of a frame's time before steps come back
 
 }  // namespace
@@ -20,6 +23,8 @@ CleaningSteps degraded(CleaningSteps steps, std::size_t level) noexcept {
     if (level >= 1) steps.steady = false;
     if (level >= 2) steps.sharpen_silhouettes = steps.colour_edges = false;
     if (level >= 3) steps.smooth_noise = false;
+    if (level >= 4) steps.smooth_outlines = false;
+    if (level >= 5) steps.smooth_steps = false;
     return steps;
 }
 
@@ -32,12 +37,18 @@ std::string left_out_in_words(const CleaningSteps& steps, std::size_t level) {
     add(steps.steady && !left.steady, "the filter in time");
     add(steps.sharpen_silhouettes && !left.sharpen_silhouettes, "sharp silhouettes");
     add(steps.smooth_noise && !left.smooth_noise, "smoothing of noise");
+    add(steps.smooth_outlines && !left.smooth_outlines, "smooth outlines");
+    add(steps.smooth_steps && !left.smooth_steps, "smoothing of 8-bit steps");
     return words.empty() ? words : "Cleaning leaves out " + words + ".";
 }
 
 void CleaningDegradation::change_to(std::size_t level) noexcept {
+    const bool soon = frames_ < kSoon * patience_;
+    if (!soon) patience_ = kPatience;
+    if (soon && returned_ && level > level_) patience_ = std::min(2 * patience_, kLongestPatience);
+    returned_ = level < level_;
     level_ = level;
-    frames_ = 0;
+    frames_ = fitting_ = 0;
 }
 
 /// The present level where no step is left to leave out.
@@ -73,7 +84,9 @@ bool CleaningDegradation::update(const CleaningSteps& steps, const FrameCosts& c
         return true;
     }
     const std::size_t below = next_below(steps);
-    if (below == level_ || times_as_long_[below] * frame_s * kRoomToReturn > free_s) return false;
+    const bool fits = below != level_ && times_as_long_[below] * frame_s * kRoomToReturn <= free_s;
+    fitting_ = fits ? fitting_ + 1 : 0;
+    if (fitting_ < patience_) return false;
     change_to(below);
     return true;
 }

@@ -11,8 +11,8 @@
 namespace dibhr {
 
 /// What the cleaning leaves out at each level, in addition to the levels before: nothing, the
-/// filter in time, silhouettes, and what smooths noise.
-inline constexpr std::size_t kDegradationLevels = 4;
+/// filter in time, silhouettes, and what smooths noise, outlines and 8-bit steps.
+inline constexpr std::size_t kDegradationLevels = 6;
 
 /// The steps that are left of `steps` at that level, 0 to kDegradationLevels - 1.
 [[nodiscard]] CleaningSteps degraded(CleaningSteps steps, std::size_t level) noexcept;
@@ -21,7 +21,8 @@ inline constexpr std::size_t kDegradationLevels = 4;
 [[nodiscard]] std::string left_out_in_words(const CleaningSteps& steps, std::size_t level);
 
 /// Raises the level while frames take longer than the video has for each. Lowers the level once the
-/// time of a frame at the lower one, as it was measured, fits with a reserve.
+/// time of a frame at the lower one, as it was measured, fits with a reserve for a while: twice as
+/// long after each time that it did not fit then, for every change is felt.
 class CleaningDegradation {
   public:
     [[nodiscard]] std::size_t level() const noexcept { return level_; }
@@ -36,12 +37,17 @@ class CleaningDegradation {
                 double speed) noexcept;
 
   private:
+    static constexpr int kPatience = 16;
+
     void change_to(std::size_t level) noexcept;
     [[nodiscard]] std::size_t next_above(const CleaningSteps& steps) const noexcept;
     [[nodiscard]] std::size_t next_below(const CleaningSteps& steps) const noexcept;
 
     std::size_t level_{0};
-    int frames_{0};  ///< since the last change
+    int frames_{0};            ///< since the last change
+    int fitting_{0};           ///< the last frames for which the lower level would have fitted
+    int patience_{kPatience};  ///< so many must fit
+    bool returned_{false};     ///< the last change lowered the level
     /// The time of a frame at a level, to that at the level after; 0: not measured.
     std::array<double, kDegradationLevels> times_as_long_{};
     std::size_t raised_from_{0};

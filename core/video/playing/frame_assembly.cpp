@@ -26,6 +26,15 @@ void FrameAssembly::clean_frame(RawFrame& raw, const CleaningPlan& plan) {
     raw.single_frame_ms = std::chrono::duration<double, std::milli>(now_() - begin).count();
 }
 
+/// The present plan, but for a frame that was cleaned for another one: its own steps.
+CleaningPlan FrameAssembly::plan_for(const SingleFrameDepth& single_frame) const {
+    CleaningPlan plan = plan_;
+    if (same_single_frame_steps(single_frame.steps, plan.steps)) return plan;
+    plan.steps = single_frame.steps;
+    plan.steps.steady = false;
+    return plan;
+}
+
 SettledDepth FrameAssembly::settle(std::span<const SingleFrameDepth* const> frames, std::size_t now,
                                    const CleaningPlan& plan) {
     const std::lock_guard lock(settling_mutex_);
@@ -46,13 +55,15 @@ Frame FrameAssembly::without_depth(RawFrame& raw) const {
 Frame FrameAssembly::finish_frame(const Frame& without_depth,
                                   std::span<const SingleFrameDepth* const> single_frame,
                                   std::size_t now, const SettledDepth* settled) {
-    const bool is_settled = settled != nullptr && settled->plan == plan_;
-    return felt(is_settled ? *settled : settle(single_frame, now, plan_), without_depth);
+    const CleaningPlan plan = plan_for(*single_frame[now]);
+    const bool is_settled = settled != nullptr && settled->plan == plan;
+    return felt(is_settled ? *settled : settle(single_frame, now, plan), without_depth);
 }
 
 Frame FrameAssembly::finish_frame(const Frame& without_depth, SingleFrameDepth&& alone) {
     const std::lock_guard lock(settling_mutex_);
-    const SettledDepth settled = chain_.settle(std::move(alone), plan_);
+    const CleaningPlan plan = plan_for(alone);
+    const SettledDepth settled = chain_.settle(std::move(alone), plan);
     return felt(settled, without_depth);
 }
 
@@ -64,7 +75,7 @@ Frame FrameAssembly::felt(const SettledDepth& settled, const Frame& without_dept
 
 Frame FrameAssembly::finish_single_frame(RawFrame raw) {
     if (!raw.single_frame) clean_frame(raw, plan_);
-    const bool is_settled = raw.settled && raw.settled->plan == plan_;
+    const bool is_settled = raw.settled && raw.settled->plan == plan_for(*raw.single_frame);
     Frame frame = is_settled ? felt(*raw.settled, without_depth(raw))
                              : finish_frame(without_depth(raw), std::move(*raw.single_frame));
     frame.cleaning.steps.steady = false;

@@ -70,6 +70,7 @@ class FrameAssembly {
     [[nodiscard]] const ObjectPool<DepthImage>& images() const noexcept { return chain_.images(); }
 
   private:
+    [[nodiscard]] CleaningPlan plan_for(const SingleFrameDepth& single_frame) const;
     [[nodiscard]] SettledDepth settle(std::span<const SingleFrameDepth* const> frames,
                                       std::size_t now, const CleaningPlan& plan);
     [[nodiscard]] Frame felt(const SettledDepth& settled, const Frame& without_depth);

@@ -86,8 +86,7 @@ FrameReader::Kept* FrameReader::read(const Pace& pace) {
         position_ = last;
         return nullptr;
     }
-    const std::int64_t frames =
-        before != nullptr ? std::max<std::int64_t>(raw->index - before->frame.index, 1) : 1;
+    const std::int64_t frames = last ? std::max<std::int64_t>(raw->index - last->index, 1) : 1;
     update_timing(*raw, frames, waited_s);
     skipped_frames_ += frames - 1;
     const bool follows = last && last->gapless && frames == 1;
@@ -98,7 +97,7 @@ FrameReader::Kept* FrameReader::read(const Pace& pace) {
     at_beginning_ = false;
     // The decoder may have skipped frames ahead: from here on any frame may be missing.
     const bool gapless = !(pace.spacing_s > 0.0) && (!last || last->gapless);
-    position_ = {kept->frame.media_s, gapless};
+    position_ = {kept->frame.media_s, gapless, kept->frame.index};
     return kept;
 }
 
@@ -220,7 +219,12 @@ void FrameReader::make_plan() {
                                               description().sparse_share.has_value(), felt_);
     CleaningPlan plan = whole_plan_;
     if (!prepared_.found()) plan.steps = degraded(plan.steps, degradation_);
-    if (cleaned != cleans_ || !same_single_frame_steps(plan.steps, this->plan().steps)) {
+    const bool other_steps =
+        cleaned != cleans_ || mixed_ || !same_single_frame_steps(plan.steps, this->plan().steps);
+    // Of frames that are kept uncleaned the colour is lost.
+    mixed_ = other_steps && goes_on_ && cleaned == cleans_ && !plan.steps.steady &&
+             need_colour(plan.steps) == need_colour(this->plan().steps);
+    if (other_steps && !mixed_) {
         kept_.clear();
         jump_to(0.0);
     }
@@ -228,6 +232,7 @@ void FrameReader::make_plan() {
     std::erase_if(kept_, [](const auto& kept) { return !kept.second.can_be_cleaned(); });
     assembly_.set_plan(plan);
     planned_ = true;
+    goes_on_ = false;
     if (prepared_.found()) return media_.prepare_with(nullptr);
     media_.prepare_with([this, plan](RawFrame& raw) { assembly_.clean_frame(raw, plan); });
 }
@@ -484,13 +489,19 @@ double FrameReader::last_interval_s(double media_s) {
 void FrameReader::set_cleaning(const CleaningOptions& options) {
     if (options == options_) return;
     options_ = options;
-    planned_ = false;
+    planned_ = goes_on_ = false;
 }
 
 void FrameReader::set_degradation(std::size_t level) {
-    if (prepared_.found() || level == degradation_) return;
+    if (prepared_.found() || (level == degradation_ && !mixed_)) return;
     degradation_ = level;
-    planned_ = false;
+    planned_ = goes_on_ = false;
+}
+
+void FrameReader::degrade_next(std::size_t level) {
+    const bool goes_on = planned_ || goes_on_;  // no other change is to come
+    set_degradation(level);
+    goes_on_ = goes_on;
 }
 
 }  // namespace dibhr

@@ -82,7 +82,12 @@ class FrameReader {
 
     /// Cleaning leaves out so much from now on: see degraded(). Likewise.
     void set_degradation(std::size_t level);
+    /// The same from the next frames on, without a jump: those that were cleaned ahead stay as they
+    /// are, unless the filter in time needs others.
+    void degrade_next(std::size_t level);
     [[nodiscard]] std::size_t degradation() const { return degradation_; }
+    /// Frames that are kept or ahead may have been cleaned at another level.
+    [[nodiscard]] bool is_mixed() const { return mixed_; }
 
     /// Frames are cleaned, also where their surface is prepared.
     void use_no_prepared() { prepared_.turn_off(); }
@@ -145,6 +150,7 @@ class FrameReader {
     struct Position {
         double media_s{0.0};
         bool gapless{true};
+        std::int64_t index{0};
     };
     /// Where the decoder was sent ahead of time, and the last frame that is kept.
     struct Prefetch {
@@ -207,6 +213,8 @@ class FrameReader {
     };
     std::optional<PendingError> pending_error_{};
     bool planned_{false};                 ///< the assembly has the plan of the options
+    bool goes_on_{false};                 ///< the new plan is for the next frames only
+    bool mixed_{false};                   ///< frames ahead or kept may be of another plan
     std::map<double, Kept> kept_{};       ///< by presentation time
     double wanted_s_{0.0};                ///< the frame to give out now, or the last one
     bool at_beginning_{true};             ///< the next frame is the first one

@@ -221,14 +221,22 @@ void Playback::clean_again() {
     ++discontinuity_;  // the surface changes at once
 }
 
+/// Frames that were cleaned at another level, here or in the reader.
+bool Playback::holds_other_steps() const {
+    if (is_preview_) return false;  // it will be replaced
+    return reader_->is_mixed() ||
+           std::any_of(frames_.begin(), frames_.end(),
+                       [this](const Frame& frame) { return !is_of_plan(frame); });
+}
+
 /// While playing, from the next frame on. At rest there is time for all steps, also of the present
 /// frames.
 void Playback::apply_degradation() {
     const std::size_t level = playing_ ? degradation_.level() : 0;
-    if (level == reader_->degradation()) return;
-    reader_->set_degradation(level);
+    if (level == reader_->degradation() && (playing_ || !holds_other_steps())) return;
     forget_costs();
-    if (playing_) return;
+    if (playing_) return reader_->degrade_next(level);
+    reader_->set_degradation(level);
     drop_frames_ahead();
     try {
         clean_again();
@@ -340,13 +348,14 @@ double Playback::earliest_in_time_s(Time now) const {
 void Playback::on_frame_read(Time now) {
     const double took_s = std::chrono::duration<double>(now - reading_since_).count() -
                           (reader_->extra_s() - extra_before_s_);
-    add_cost(took_s, reader_->waited_s() - waited_before_s_);
+    const bool is_of_plan = this->is_of_plan(frames_.back());  // else it does not tell its cost
+    if (is_of_plan) add_cost(took_s, reader_->waited_s() - waited_before_s_);
     falls_behind_ = waited_ && now - *waited_ < kShownFor;
     if (frames_.size() < 2) return;
     const bool starts = std::exchange(starts_, false);
     if (playing_ && frames_.size() == 2) place_late_frame(starts, now);
     update_plan(now);
-    if (playing_) degrade();
+    if (playing_ && is_of_plan) degrade();
 }
 
 /// The surface moves on from where it was held while frames had run out.
@@ -361,6 +370,8 @@ void Playback::place_late_frame(bool starts, Time now) {
         offset_s_ += late_s + (clock_is_slowed() ? plan_.every * interval_s() : 0.0);
     next.time_s = std::max(next.time_s, next.media_s + offset_s_);
     if (waits) waited_ = now;
+    // The surface does not move towards a frame of another cleaning: that replaces it at once.
+    if (!(next.cleaning == held.cleaning)) return;
     held.time_s = std::max(held.time_s, moment_s);
     next.time_s = std::max(next.time_s, held.time_s + std::max(kJump_s, 0.5 * interval_s()));
 }

@@ -122,6 +122,11 @@ class Playback {
     [[nodiscard]] double interval_s() const;
     void clean_again();
     void degrade();
+    /// Whether a frame was cleaned as the reader cleans now.
+    [[nodiscard]] bool is_of_plan(const Frame& frame) const {
+        return frame.cleaning.steps == reader_->plan().steps;
+    }
+    [[nodiscard]] bool holds_other_steps() const;
     void apply_degradation();
     void drop_frames_ahead();
     void forget_costs();
