@@ -116,7 +116,9 @@ SurfaceWriter::SharedGrid SurfaceWriter::grid_of(const std::shared_ptr<const Dat
     }
     auto grid = std::make_shared<Grid>();
     grid->data = data;
-    grid->value = std::move(value);
+    grid->read = [value = std::move(value)](std::size_t first, std::span<float> pixels) {
+        for (std::size_t k = 0; k < pixels.size(); ++k) pixels[k] = value(first + k);
+    };
     grid->id = ++grids_;
     grid->columns = columns;
     grid->rows = rows;
@@ -159,13 +161,15 @@ void SurfaceWriter::write_tiles(Grid& grid) {
         grid.states[place] = Grid::State::written;
         const int left = static_cast<int>(place) % grid.tiles.across() * kTileSide;
         const int top = static_cast<int>(place) / grid.tiles.across() * kTileSide;
+        const auto inside = static_cast<std::size_t>(std::min(kTileSide, grid.columns - left));
         Tile tile;
-        for (std::size_t k = 0; k < kTilePixels; ++k) {
-            const int i = std::min(left + static_cast<int>(k % kTileSide), grid.columns - 1);
-            const int j = std::min(top + static_cast<int>(k / kTileSide), grid.rows - 1);
-            tile[k] =
-                grid.value(static_cast<std::size_t>(j) * static_cast<std::size_t>(grid.columns) +
-                           static_cast<std::size_t>(i));
+        for (int down = 0; down < kTileSide; ++down) {
+            const auto j = static_cast<std::size_t>(std::min(top + down, grid.rows - 1));
+            const std::span<float> row(&tile[static_cast<std::size_t>(down * kTileSide)],
+                                       static_cast<std::size_t>(kTileSide));
+            grid.read(j * static_cast<std::size_t>(grid.columns) + static_cast<std::size_t>(left),
+                      row.first(inside));
+            std::ranges::fill(row.subspan(inside), row[inside - 1]);
         }
         insert_place_.run(grid.id, place, tile_id(tile));
     });

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -49,7 +50,8 @@ class SurfaceWriter {
         enum class State : std::uint8_t { absent, wanted, written };
 
         std::shared_ptr<const void> data{};
-        std::function<float(std::size_t)> value{};  ///< of the k-th pixel of `data`
+        /// Reads pixels of `data` which follow each other, the k-th first.
+        std::function<void(std::size_t k, std::span<float> pixels)> read{};
         std::int64_t id{0};
         int columns{0}, rows{0};
         TileGrid tiles{};
