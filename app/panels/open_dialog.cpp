@@ -336,11 +336,12 @@ void draw_buttons(ViewerState& state, const FolderEntry* chosen) {
         desktop_dialog_box(state.settings.open_with);
     }
     const float gap = ImGui::GetStyle().ItemSpacing.x;
-    const float width = 6.5F * ImGui::GetFontSize();
     const bool looks_inside = chosen != nullptr && chosen->recording;
     const float buttons = looks_inside ? 3.0F : 2.0F;
-    ImGui::SameLine(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - buttons * width -
-                    (buttons - 1.0F) * gap);
+    ImGui::SameLine();
+    const float room = ImGui::GetContentRegionAvail().x - (buttons - 1.0F) * gap;
+    const float width = std::clamp(room / buttons, 1.0F, 6.5F * ImGui::GetFontSize());
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room - buttons * width);
     if (looks_inside) {
         if (item::button("Look inside", {width, 0.0F})) go_to(state, chosen->file);
         add_tooltip("Lists the folder; a name with a slash behind it does so, too");

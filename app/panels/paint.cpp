@@ -106,11 +106,12 @@ void draw_value_row(ViewerState& state) {
 }
 
 void draw_undo_buttons(ViewerState& state) {
-    const float third =
-        (ImGui::GetContentRegionAvail().x - 2.0F * ImGui::GetStyle().ItemSpacing.x) / 3.0F;
-    const auto button = [third](const char* label, bool enabled, const std::string& help) {
+    const float gap = ImGui::GetStyle().ItemSpacing.x;
+    const float third = (ImGui::GetContentRegionAvail().x - 2.0F * gap) / 3.0F;
+    const bool one_row = button_width("Remove all") <= third;
+    const auto button = [&](const char* label, bool enabled, const std::string& help) {
         ImGui::BeginDisabled(!enabled);
-        const bool pressed = item::button(label, {third, 0.0F});
+        const bool pressed = item::button(label, {one_row ? third : half_width(), 0.0F});
         ImGui::EndDisabled();
         add_tooltip(help.c_str());
         return pressed;
@@ -122,7 +123,7 @@ void draw_undo_buttons(ViewerState& state) {
     ImGui::SameLine();
     if (button("Redo", state.ui.brush.can_redo, "Paints it again" + keys.in_brackets(Action::redo)))
         state.commands.push(Action::redo);
-    ImGui::SameLine();
+    if (one_row) ImGui::SameLine();
     if (button("Remove all", state.ui.brush.has_paint, "All that is painted on this recording"))
         state.commands.push(RemovePaint{});
 }

@@ -26,10 +26,10 @@ void push_recording_colours() {
     ImGui::PushStyleColor(ImGuiCol_ButtonActive, raised);
 }
 
-void draw_switch(ViewerState& state) {
+void draw_switch(ViewerState& state, float width) {
     const bool on = state.touch.recording.has_value();
     if (on) push_recording_colours();
-    if (item::button(on ? "Stop recording###record" : "Record###record", {half_width(), 0.0F})) {
+    if (item::button(on ? "Stop recording###record" : "Record###record", {width, 0.0F})) {
         state.commands.push(Action::record);
     }
     if (on) ImGui::PopStyleColor(kRecordingColours);
@@ -96,8 +96,9 @@ void draw_clip_button(ViewerState& state) {
 void draw_session_panel(ViewerState& state) {
     if (!section(state, "Session", state.settings.panels.session, &state.ui.show_session)) return;
     ImGui::PushID("session");
-    draw_switch(state);
-    ImGui::SameLine();
+    const bool one_row = button_width("Stop recording") <= half_width();
+    draw_switch(state, one_row ? half_width() : -1.0F);
+    if (one_row) ImGui::SameLine();
     draw_clip_button(state);
     const TouchState& touch = state.touch;
     if (!touch.recording_trouble.empty()) draw_warning(capitalised(touch.recording_trouble));

@@ -281,7 +281,7 @@ struct UiState {
 
     bool show_paint{false};    ///< brush switched on by key: scroll the Paint panel into view
     bool show_touch{false};    ///< a material is to be chosen: scroll the Touch panel into view
-    bool show_session{false};  ///< recording begun by key: scroll the Session panel into view
+    bool show_session{false};  ///< recording ended by key: scroll the Session panel into view
     bool help_open{false};
     std::string message{};              ///< shown in a box until a person closes it
     std::string notice{};               ///< shown at the bottom until notice_until_s

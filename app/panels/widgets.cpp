@@ -365,7 +365,8 @@ void fact_row(const char* label, const std::string& value, const char* help) {
     const float width = ImGui::GetContentRegionAvail().x;
     ImGui::TextDisabled("%s", label);
     add_tooltip(help);
-    ImGui::SameLine(begin + width * kLabelShare);
+    const float label_end = ImGui::CalcTextSize(label).x + ImGui::GetStyle().ItemSpacing.x;
+    ImGui::SameLine(begin + std::max(width * kLabelShare, label_end));
     ImGui::PushTextWrapPos(begin + width);
     ImGui::TextUnformatted(value.c_str());
     ImGui::PopTextWrapPos();

@@ -96,6 +96,7 @@ void Viewer::start_or_stop_recording() {
     } else if (recording.active_or_waiting()) {
         painting_.flush_maps(recording);
         show_notice(recording.stop());
+        state_.ui.show_session = true;
     } else {
         record_next_ = !record_next_;  // pressed twice: as if it had not been
         if (recording.finishing())
@@ -114,7 +115,6 @@ void Viewer::begin_next_recording() {
     attempt([&] {
         const std::string file = new_file_name("dibhr");
         state_.media.live ? recording.start_live(file) : recording.start(file);
-        state_.ui.show_session = true;
         show_notice("Recording into " + file);
     });
 }
