@@ -37,8 +37,8 @@ constexpr int kLocked = MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT;
 
 /// There is one in a process.
 struct Heap {
-    /// mlockall() fills all pages that another thread unlocks before it ends: whoever locks or
-    /// unlocks holds this.
+    /// While mlockall() runs, the system fills every page that another thread unlocks: whoever
+    /// locks or unlocks holds this.
     std::mutex locking{};
     char* begin{nullptr};  ///< of the large pages; null: not prepared
 };
@@ -69,12 +69,12 @@ bool limit_is_ample(rlim_t limit_bytes) {
     return limit_bytes >= pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + kReserve_bytes;
 }
 
-bool is_unlimited(__rlimit_resource resource) {
+bool is_unlimited(decltype(RLIMIT_AS) resource) {
     rlimit limit{};
     return getrlimit(resource, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY;
 }
 
-/// Whether addresses that are not used take nothing from anybody.
+/// Whether reserved addresses count against no limit.
 bool may_reserve() {
     std::ifstream overcommit("/proc/sys/vm/overcommit_memory");
     int never = 2;

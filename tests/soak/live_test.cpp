@@ -1,8 +1,6 @@
 // What is live for a long time, by the machine's clock: no drift from a clock that runs at another
 // rate, no growing memory, and every flash in the depth felt in time. DIBHR_SOAK_SECONDS: ten
 // minutes are looked at by hand.
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -10,7 +8,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,6 +17,7 @@
 #include "tests/core/video/live/senders.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/eventually.hpp"
+#include "tests/support/own_memory.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -32,11 +30,7 @@ constexpr double kTooQuick = 1.0003;  ///< a source's clock, as bad as they come
 constexpr int kEvery = 30;            ///< frames between two flashes
 
 double megabytes() {
-    std::ifstream pages("/proc/self/statm");
-    double all = 0.0;
-    double resident = 0.0;
-    pages >> all >> resident;
-    return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1048576.0;
+    return static_cast<double>(resident_bytes()) / 1048576.0;
 }
 
 /// One a second.

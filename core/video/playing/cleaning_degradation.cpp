@@ -38,7 +38,7 @@ std::string left_out_in_words(const CleaningSteps& steps, std::size_t level) {
     add(steps.sharpen_silhouettes && !left.sharpen_silhouettes, "sharp silhouettes");
     add(steps.smooth_noise && !left.smooth_noise, "smoothing of noise");
     add(steps.smooth_outlines && !left.smooth_outlines, "smooth outlines");
-    add(steps.smooth_steps && !left.smooth_steps, "smoothing of 8-bit steps");
+    add(steps.smooth_steps && !left.smooth_steps, "smoothing of depth steps");
     return words.empty() ? words : "Cleaning leaves out " + words + ".";
 }
 

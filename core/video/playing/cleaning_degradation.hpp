@@ -11,7 +11,7 @@
 namespace dibhr {
 
 /// What the cleaning leaves out at each level, in addition to the levels before: nothing, the
-/// filter in time, silhouettes, and what smooths noise, outlines and 8-bit steps.
+/// filter in time, silhouettes, and what smooths noise, outlines and depth steps.
 inline constexpr std::size_t kDegradationLevels = 6;
 
 /// The steps that are left of `steps` at that level, 0 to kDegradationLevels - 1.

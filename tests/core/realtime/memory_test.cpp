@@ -17,8 +17,10 @@
 #include <vector>
 
 #include "tests/support/catch.hpp"
+#include "tests/support/own_memory.hpp"
 
 using namespace dibhr;
+using dibhr::test::resident_bytes;
 
 namespace {
 
@@ -27,14 +29,6 @@ constexpr std::size_t kFrames = 24;
 const long page_count = static_cast<long>(kFrames * kFrame) / sysconf(_SC_PAGESIZE);
 
 const bool heap_is_prepared = (prepare_heap(), true);  // before a second thread
-
-std::size_t resident_bytes() {
-    std::ifstream statm("/proc/self/statm");
-    std::size_t all = 0;
-    std::size_t resident = 0;
-    statm >> all >> resident;
-    return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-}
 
 std::size_t most_resident_bytes() {
     rusage usage{};

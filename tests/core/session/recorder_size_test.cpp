@@ -16,6 +16,7 @@
 #include "tests/core/session/session_folder.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/eventually.hpp"
+#include "tests/support/own_memory.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -45,15 +46,6 @@ std::optional<double> thread_seconds(const std::string& name) {
     return std::nullopt;
 }
 
-/// Memory of this process [bytes].
-double resident_bytes() {
-    std::ifstream statm("/proc/self/statm");
-    double total = 0.0;
-    double resident = 0.0;
-    statm >> total >> resident;
-    return resident * 4096.0;
-}
-
 struct Cost {
     double bytes_per_hour{0.0};
     double share_of_core{0.0};  ///< of the recorder's thread, had it been at 1 kHz
@@ -72,13 +64,13 @@ Cost cost_of(Exploration& hand, std::int64_t ticks) {
         double before = 0.0;
         for (std::int64_t k = 0; k < ticks; ++k) {
             push(*ring, hand.next());
-            if (k == ticks / 2) before = resident_bytes();
+            if (k == ticks / 2) before = static_cast<double>(resident_bytes());
         }
         REQUIRE(eventually([&recorder, ticks] {
             const RecorderStatus status = recorder.status();
             return static_cast<std::int64_t>(status.rows + status.dropped) == ticks;
         }));
-        cost.grown_bytes = resident_bytes() - before;
+        cost.grown_bytes = static_cast<double>(resident_bytes()) - before;
         const auto seconds = thread_seconds("dibhr-recorder");
         REQUIRE(seconds.has_value());
         cost.share_of_core = *seconds / (static_cast<double>(ticks) * 1e-3);

@@ -50,7 +50,7 @@ TEST_CASE("each level leaves out what the level before does, and more", "[degrad
           "Cleaning leaves out the filter in time, sharp silhouettes.");
     CHECK(left_out_in_words(kGentleSteps, 3).empty());
     CHECK(left_out_in_words(kGentleSteps, 5) ==
-          "Cleaning leaves out smooth outlines, smoothing of 8-bit steps.");
+          "Cleaning leaves out smooth outlines, smoothing of depth steps.");
 }
 
 TEST_CASE("no more is left out than a slow machine must leave out", "[degradation]") {

@@ -2,7 +2,6 @@
 #include "core/video/playing/frame_reader.hpp"
 
 #include <malloc.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -10,7 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +22,7 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/noisy_scene.hpp"
+#include "tests/support/own_memory.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace dibhr;
@@ -539,18 +538,6 @@ TEST_CASE("while nothing else is to be done the step back is made ready", "[play
 }
 
 #if !DIBHR_SANITIZED  // which need memory, too
-namespace {
-
-std::size_t resident_bytes() {
-    std::ifstream statm("/proc/self/statm");
-    std::size_t all = 0;
-    std::size_t resident = 0;
-    statm >> all >> resident;
-    return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-}
-
-}  // namespace
-
 TEST_CASE("a reader of large frames keeps within its memory", "[reader]") {
     const CleaningPreset preset = GENERATE(CleaningPreset::gentle, CleaningPreset::sensor);
     const NoisyScene shaken{[](int, int i, int j) { return 80.0 + 0.05 * i + 0.01 * j; },
