@@ -8,6 +8,7 @@
 
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
+#include "tests/app/program/passing_ticks.hpp"
 #include "tests/app/program/recorded_session.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/eventually.hpp"
@@ -123,6 +124,7 @@ TEST_CASE("a clip of a session shows its hand with the video and with the stored
         desk.start_viewer(folder, {"film_color.mkv", "--device", "goals:goals.csv", "--record",
                                    "mine.dibhr", "--size", "320x240"});
     viewer.wait_until([](const Seen& now) { return now.contact; });
+    wait_for_ticks(viewer, 500);  // else the contact may fall between two pictures of the clip
     desk.press("key q");
     REQUIRE(viewer.wait() == 0);
     make_clip(folder, {"mine.dibhr", "--out", "video.mp4"});
@@ -130,7 +132,8 @@ TEST_CASE("a clip of a session shows its hand with the video and with the stored
     REQUIRE(pictures.size() > 30 * kPictureBytes);
     CHECK(difference(pictures, pictures.substr(pictures.size() - kPictureBytes), 0) > 0.0);
     make_clip(folder, {"mine.dibhr", "--algorithm", "neighborhood", "--out", "other.mp4"});
-    CHECK(pictures_of(folder, "other.mp4") != pictures);
+    const bool alike = pictures_of(folder, "other.mp4") == pictures;
+    CHECK_FALSE(alike);  // the pictures themselves would fill the report for minutes
     fs::remove(folder / "film_color.mkv");
     fs::remove(folder / "film_depth.mkv");
     make_clip(folder, {"mine.dibhr", "--out", "stored.mp4"});
