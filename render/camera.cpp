@@ -62,7 +62,8 @@ void Camera::keep_in_front() {
 
 void Camera::pan(double right_px, double up_px, int viewport_height) {
     const double scale = projection_ == Projection::perspective ? distance_px() : 1.0;
-    const double world_per_px = 2.0 * half_extent().y * scale / std::max(viewport_height, 1);
+    const double free_px = free_share() * std::max(viewport_height, 1);
+    const double world_per_px = 2.0 * half_extent().y * scale / free_px;
     const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view_from_world()));
     centre_in_world_ -= world_from_view * Vec3(right_px, up_px, 0.0) * world_per_px;
 }
@@ -87,6 +88,10 @@ void Camera::set_view(const View& view) {
     constexpr double kFarthest = 4.0;  // the relief would be out of sight
     const Vec3 bound(kFarthest * radius_px());
     centre_in_world_ = glm::clamp(view.centre_in_world, -bound, bound);
+}
+
+void Camera::set_covered_below(double share) {
+    covered_below_ = std::clamp(share, 0.0, 0.5);
 }
 
 double Camera::radius_px() const {
@@ -122,12 +127,14 @@ glm::dmat4 Camera::clip_from_view(double aspect) const {
     const double reach = kDepthInRadii * radius_px();
     const double near_px = distance_px() - reach;
     const double far_px = distance_px() + reach;
-    const double up = half_height(half_extent(), aspect);
-    if (projection_ == Projection::straight) {
-        return glm::ortho(-up * aspect, up * aspect, -up, up, near_px, far_px);
-    }
-    return glm::frustum(-up * aspect * near_px, up * aspect * near_px, -up * near_px, up * near_px,
-                        near_px, far_px);
+    const double free_aspect = aspect / free_share();
+    const double up = half_height(half_extent(), free_aspect);
+    const double right = up * free_aspect;
+    const double down = up * (2.0 / free_share() - 1.0);
+    if (projection_ == Projection::straight)
+        return glm::ortho(-right, right, -down, up, near_px, far_px);
+    return glm::frustum(-right * near_px, right * near_px, -down * near_px, up * near_px, near_px,
+                        far_px);
 }
 
 glm::dmat4 Camera::clip_from_grid(double aspect) const {

@@ -52,6 +52,10 @@ class Camera {
 
     void set_projection(Projection projection) { projection_ = projection; }
 
+    /// The lower share of the viewport, from 0 to 0.5, that something else covers: the relief is
+    /// put into view above it.
+    void set_covered_below(double share);
+
     [[nodiscard]] glm::dmat4 view_from_world() const;
     [[nodiscard]] glm::dmat4 clip_from_view(double aspect) const;  ///< aspect = width / height
     /// From grid space to the clip space of such a viewport, for drawings over the picture.
@@ -72,10 +76,12 @@ class Camera {
     [[nodiscard]] double radius_px() const;
     [[nodiscard]] double distance_px() const;
     [[nodiscard]] glm::dvec2 half_extent() const;
+    [[nodiscard]] double free_share() const { return 1.0 - covered_below_; }
 
     int columns_{2}, rows_{2};
     double relief_px_{0.0};
     Projection projection_{Projection::perspective};
+    double covered_below_{0.0};
     double yaw_rad_{0.0}, pitch_rad_{0.0}, zoom_{1.0};
     Vec3 centre_in_world_{0.0};
 };

@@ -99,6 +99,7 @@ bool Viewer::draw_if_changed(const WindowInput& input) {
     const auto now = steady_clock::now();
     explaining_.advance(shown_, state_, camera_, now_s());  // relief and marks from one view
     const glm::ivec2 viewport = relief_viewport();
+    camera_.set_covered_below(kiosk_height(state_) / static_cast<float>(viewport.y));
     const Camera camera = camera_;  // the panels may move it for the next picture
     SceneContent content = prepare_scene();
     const bool saved = wanted || clip_.active();

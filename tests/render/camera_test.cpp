@@ -180,6 +180,7 @@ TEST_CASE("a camera that is kept in front of the relief looks at its near side",
 TEST_CASE("panning by some pixels moves the middle of the relief by as many") {
     const auto projection = GENERATE(Camera::Projection::perspective, Camera::Projection::straight);
     Camera camera;
+    camera.set_covered_below(GENERATE(0.0, 0.2));
     camera.frame_relief(640, 480, 200.0);
     camera.set_projection(projection);
     camera.zoom(2.0);
@@ -190,6 +191,31 @@ TEST_CASE("panning by some pixels moves the middle of the relief by as many") {
     const glm::dvec2 moved = on_screen(camera, middle, size) - before;
     CHECK_THAT(moved.x, WithinAbs(40.0, 1e-6));
     CHECK_THAT(moved.y, WithinAbs(-25.0, 1e-6));
+}
+
+TEST_CASE(
+    "above a covered share of the viewport the whole relief is in view, and as wide as can be") {
+    const glm::ivec2 relief = GENERATE(glm::ivec2(640, 480), glm::ivec2(288, 512));
+    const glm::ivec2 size = GENERATE(glm::ivec2(1280, 800), glm::ivec2(500, 900));
+    const auto projection = GENERATE(Camera::Projection::perspective, Camera::Projection::straight);
+    Camera camera;
+    camera.frame_relief(relief.x, relief.y, 100.0);
+    camera.set_projection(projection);
+    camera.set_covered_below(0.2);
+    double widest = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 place(corner & 1 ? relief.x - 1 : 0, corner & 2 ? relief.y - 1 : 0,
+                         corner & 4 ? 100 : 0);
+        const glm::dvec2 seen = on_screen(camera, place, size);
+        const glm::dvec2 free_px(size.x, 0.8 * size.y);
+        CHECK(seen.x >= 0.0);
+        CHECK(seen.x <= free_px.x);
+        CHECK(seen.y >= 0.0);
+        CHECK(seen.y <= free_px.y);
+        const glm::dvec2 from_middle = glm::abs(seen - 0.5 * free_px) / (0.5 * free_px);
+        widest = std::max({widest, from_middle.x, from_middle.y});
+    }
+    CHECK(widest > 0.9);
 }
 
 TEST_CASE("zooming in makes the relief larger, within bounds to both sides") {

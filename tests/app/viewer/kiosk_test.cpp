@@ -130,6 +130,21 @@ TEST_CASE("a kiosk that nobody touches returns to its first recording as it was 
     leave(desk, viewer);
 }
 
+TEST_CASE("the whole relief of a kiosk is above its buttons, however high it is", "[kiosk]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    write_both(folder);
+    write_depth_png(folder / "tall_depth.png", 300, 600, 120);
+    WindowProgram viewer =
+        desk.start_viewer(folder, kiosk_options("tall_depth.png", {"--next", "pot_depth.png"}));
+    viewer.wait_for_surface();
+    viewer.act("mousemove 600 560");
+    viewer.wait_until([](const Seen& now) { return now.pointed_column >= 0.0F; });
+    viewer.act("mousemove 600 670");  // a little above the button
+    viewer.wait_until([](const Seen& now) { return now.pointed_column < 0.0F; });
+    leave(desk, viewer);
+}
+
 TEST_CASE("a kiosk is not taken back while it is touched", "[kiosk]") {
     const Desk desk;
     const TemporaryFolder folder;
