@@ -174,21 +174,29 @@ std::vector<PageTable> PageTable::tables(const std::string& key, const std::stri
     return all;
 }
 
+std::string PageTable::unknown_in_words(std::string_view key) const {
+    return in_quotes(std::string(key)) + " is not known in " + label_;
+}
+
 void PageTable::refuse_unknown_keys() const {
     const std::vector<std::string> names(known_.begin(), known_.end());
     for (const auto& [key, value] : table_) {
         const std::string name(key.str());
         if (known_.contains(name)) continue;
         const std::string nearest = did_you_mean(name, names);
-        refuse_at(file_, value,
-                  in_quotes(name) + " is not known in " + label_ +
-                      (nearest.empty() ? ": known are " + listed(names) : nearest));
+        refuse_at(
+            file_, value,
+            unknown_in_words(name) + (nearest.empty() ? ": known are " + listed(names) : nearest));
     }
 }
 
 void PageTable::refuse(const std::string& key, const std::string& what) const {
-    const toml::node* const found = table_.get(key);
-    refuse_at(file_, found == nullptr ? static_cast<const toml::node&>(table_) : *found, what);
+    if (const toml::node* const found = table_.get(key)) refuse_at(file_, *found, what);
+    for (const auto& [other, value] : table_) {
+        const std::string nearest = did_you_mean(std::string(other.str()), {key});
+        if (!nearest.empty()) refuse_at(file_, value, unknown_in_words(other.str()) + nearest);
+    }
+    refuse_at(file_, table_, what);
 }
 
 }  // namespace dibhr

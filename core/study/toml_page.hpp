@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -57,10 +58,13 @@ class PageTable {
     [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
     /// Refuses keys that were not read, and names the nearest known one.
     void refuse_unknown_keys() const;
-    /// Throws with this key's line, or the table's where the key is missing.
+    /// Throws with this key's line. Where the key is missing: with the table's, or with that of a
+    /// key of nearly the same name, which is named instead.
     [[noreturn]] void refuse(const std::string& key, const std::string& what) const;
 
   private:
+    [[nodiscard]] std::string unknown_in_words(std::string_view key) const;
+
     const toml::table& table_;
     std::filesystem::path file_;
     std::string label_;

@@ -70,6 +70,8 @@ TEST_CASE("a mistake in a protocol is told with its line and with what is allowe
         {"title = \"T\"\n[[factor]]\nname = \"f\"\nlevels = [{name = \"x\"}]\n" + kBlock, 4,
          "a factor has two levels at least"},
         {kHead + "[[block]]\nquestion = \"Q\"\n", 8, "a block has no form: it is one of explore"},
+        {kHead + "[[block]]\nquestion = \"Q\"\nfrom = \"explore\"\n", 10,
+         "'from' is not known in a block; did you mean form?"},
         {kHead + "[[block]]\nform = \"2afc\"\n", 9, "form must be one of explore"},
         {kHead + "[[block]]\nform = \"explore\"\n", 8, "a block has no question"},
         {kHead + kBlock + "conditions = [\"d\"]\n", 11,
