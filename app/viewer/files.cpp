@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kSettleTime_s = 2.0;
+constexpr double kPollInterval_s = 0.25;
 
 // Levels between channels that video compression leaves in a grey picture.
 constexpr int kGreyTolerance = 12;
@@ -110,6 +111,8 @@ SettingsSaver::SettingsSaver(Settings in_file, Settings started, std::filesystem
       writing_(writing) {}
 
 void SettingsSaver::poll(const Settings& now, double now_s) {
+    if (now_s < next_poll_s_) return;
+    next_poll_s_ = now_s + kPollInterval_s;
     const Settings wanted = merge_changes(in_file_, started_, now);
     if (!same_settings(wanted, wanted_)) {
         wanted_ = wanted;

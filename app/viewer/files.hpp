@@ -81,6 +81,7 @@ class SettingsSaver {
     std::filesystem::path file_;
     TaskQueue& writing_;
     double changed_s_{0.0};
+    double next_poll_s_{0.0};  // comparing in each turn would cost a resting window time
 };
 
 /// Result of opening files: media, a session, or a failure as a sentence.

@@ -18,7 +18,7 @@ constexpr std::chrono::milliseconds kLongestHandWait{100};
 /// off.
 constexpr std::chrono::milliseconds kSettlingPause{16};
 constexpr std::chrono::milliseconds kDevicePause{33};
-constexpr std::chrono::milliseconds kRestingPause{50};
+constexpr std::chrono::milliseconds kRestingPause{100};
 
 }  // namespace
 

@@ -215,6 +215,7 @@ class Viewer {
     void use_pointer(const Pointer& now, double wheel_steps, EventTimes::Time at);
     [[nodiscard]] SceneContent prepare_scene();
     [[nodiscard]] SceneMark mark_scene(SceneContent content, glm::ivec2 viewport) const;
+    [[nodiscard]] bool waits_for_surface(std::chrono::steady_clock::time_point now) const;
     [[nodiscard]] bool draw_if_changed(const WindowInput& input);
     void lay_out_panels(const WindowInput& input, const std::function<void()>& drawn);
     void hold_unseen_video();

@@ -18,6 +18,9 @@ namespace dibhr {
 
 namespace {
 
+/// How long after its start the window waits for the first surface.
+constexpr std::chrono::milliseconds kFirstSurface{100};
+
 /// The frames of a video that is drawn at its own rate, and of a slow one moments between them.
 DepthBlend in_steps(DepthBlend shown, double speed) {
     constexpr double kLongest_s = 0.05;
@@ -85,6 +88,12 @@ void Viewer::leave_trace(TouchMarkers& markers) {
     trace_.mark(shown_.drawn_surface(state_.shape(), state_.touch.bump.get()), now_s(), markers);
 }
 
+/// At first the surface comes within some ms, and a picture without it would delay the one with it.
+bool Viewer::waits_for_surface(steady_clock::time_point now) const {
+    const bool comes = !state_.media.depth_path.empty() && !state_.media.live;
+    return comes && !shown_.makes_surface() && now < start_ + kFirstSurface;
+}
+
 /// Draws relief and panels if they differ from the last picture, or a clip or screenshot needs one,
 /// and passes the picture on to these. False: nothing was drawn.
 bool Viewer::draw_if_changed(const WindowInput& input) {
@@ -97,6 +106,7 @@ bool Viewer::draw_if_changed(const WindowInput& input) {
         return false;
     }
     const auto now = steady_clock::now();
+    if (waits_for_surface(now) && !wanted) return false;
     explaining_.advance(shown_, state_, camera_, now_s());  // relief and marks from one view
     const glm::ivec2 viewport = relief_viewport();
     camera_.set_covered_below(kiosk_height(state_) / static_cast<float>(viewport.y));

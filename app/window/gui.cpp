@@ -35,6 +35,7 @@ void* allocate_or_throw(std::size_t bytes, void*) {
 }
 
 constexpr float kTextHeight_px = 13.5F;
+constexpr float kLargeText_px = 20.0F;
 
 /// Greys with a touch of blue: less of it the lighter they are.
 ImVec4 grey_blue(float lightness, float alpha = 1.0F) {
@@ -157,7 +158,8 @@ ImFont* load_font(int weight, float height_px) {
     if (!file || ::access(file->name.c_str(), R_OK) != 0) return nullptr;
     ImFontConfig config;
     config.FontNo = file->number & 0xFFFF;
-    config.OversampleH = 2;  // 3, as ImGui 1.86 has it, looks the same and takes 6 MB more
+    // 3, as ImGui 1.86 has it, looks the same and takes 6 MB more; large letters need none.
+    config.OversampleH = height_px > kLargeText_px ? 1 : 2;
     return ImGui::GetIO().Fonts->AddFontFromFileTTF(file->name.c_str(), height_px, &config,
                                                     kLetters);
 }
@@ -202,6 +204,7 @@ Gui::Gui(const Window& window, const GuiStyle& gui_style) : style_(gui_style) {
     ImGui::GetIO().UserData = &focus_;
     set_style(style_);
     fonts_ = load_fonts(style_.scale);
+    ImGui::GetIO().Fonts->Build();  // now, while another thread opens the files
     ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
     ImGui_ImplOpenGL3_Init("#version 330");
 #if IMGUI_VERSION_NUM < 18700

@@ -116,16 +116,20 @@ Table table_of(const fs::path& file) try {
 /// Pixels as marks: a level of one channel, or a colour. Alpha counts as none below half.
 class Labels {
   public:
-    Labels(const cv::Mat& picture, const Table& table) : picture_(picture), table_(table) {}
+    Labels(const cv::Mat& picture, const Table& table) : picture_(picture), table_(table) {
+        of_level_.resize(picture.depth() == CV_8U ? 256 : 65536);
+        for (Mark level = 0; level < of_level_.size(); ++level)
+            of_level_[level] = find_level(level);
+    }
 
     [[nodiscard]] std::uint8_t at(int j, int i) const {
         const int channels = picture_.channels();
-        if (channels == 1) return of_level(channel(j, i, 0));
+        if (channels == 1) return of_level_[channel(j, i, 0)];
         if (channels == 4 && channel(j, i, 3) < half()) return 0;
         const std::array<Mark, 3> bgr{channel(j, i, 0), channel(j, i, 1), channel(j, i, 2)};
         const auto found = table_.colours.find((bgr[2] << 16U) | (bgr[1] << 8U) | bgr[0]);
         if (found != table_.colours.end()) return found->second;
-        return bgr[0] == bgr[1] && bgr[1] == bgr[2] ? of_level(bgr[0]) : std::uint8_t{0};
+        return bgr[0] == bgr[1] && bgr[1] == bgr[2] ? of_level_[bgr[0]] : std::uint8_t{0};
     }
 
   private:
@@ -135,7 +139,7 @@ class Labels {
                                          : Mark{picture_.ptr<std::uint16_t>(j)[at]};
     }
     [[nodiscard]] Mark half() const { return picture_.depth() == CV_8U ? 128 : 32768; }
-    [[nodiscard]] std::uint8_t of_level(Mark level) const {
+    [[nodiscard]] std::uint8_t find_level(Mark level) const {
         const auto found = table_.labels.find(level);
         if (found != table_.labels.end()) return found->second;
         const auto grey = table_.colours.find(level * 0x010101U);  // "#141414" of a grey picture
@@ -144,6 +148,7 @@ class Labels {
 
     const cv::Mat& picture_;
     const Table& table_;
+    std::vector<std::uint8_t> of_level_{};
 };
 
 /// Throws InputError for a picture that does not fit the depth.
@@ -219,10 +224,11 @@ std::shared_ptr<const Regions> read_regions(const fs::path& depth, int columns, 
     Regions& regions = table.regions;
     regions.columns = picture.cols;
     regions.rows = picture.rows / regions.pictures;
-    regions.labels.reserve(picture.total());
+    regions.labels.resize(picture.total());
     const Labels labels(picture, table);
+    auto to = regions.labels.begin();
     for (int j = 0; j < picture.rows; ++j)
-        for (int i = 0; i < picture.cols; ++i) regions.labels.push_back(labels.at(j, i));
+        for (int i = 0; i < picture.cols; ++i) *to++ = labels.at(j, i);
     return std::make_shared<const Regions>(std::move(regions));
 }
 

@@ -58,6 +58,7 @@ struct Player::Implementation {
     void post(Command command, const RequestedState& change = {});
     void run();
 
+    [[nodiscard]] bool has_media() const { return playback.is_open() || live.is_open(); }
     void publish_live();
     bool take_live(Time now);
     bool wait_for_work(std::vector<Command>& taken);
@@ -282,9 +283,10 @@ void Player::play_media(std::unique_ptr<Media> media, std::uint32_t number,
             player->wake.notify_one();
         };
         player->post({[=](Playback& playback, Time) {
+            const bool replaces = player->has_media();
             playback.close();
             player->live.open(std::move(*shared), number, maps, live_update);
-            return_unused_memory();
+            if (replaces) return_unused_memory();
         }});
         return;
     }
@@ -294,10 +296,11 @@ void Player::play_media(std::unique_ptr<Media> media, std::uint32_t number,
         ReaderHeartbeats{&implementation_->decoding, &implementation_->heart}));
     (*reader)->set_maps(std::move(maps));
     implementation_->post({[reader, player](Playback& playback, Time now) {
+        const bool replaces = player->has_media();
         playback.open(std::move(*reader), now);
         player->live.close();
         // Else the memory of the media before stays with the program.
-        return_unused_memory();
+        if (replaces) return_unused_memory();
     }});
 }
 
