@@ -11,7 +11,7 @@ namespace {
 
 // In units (outline_unit()).
 constexpr float kSameColour = 10.0F;  // a larger difference in elevation is another face
-constexpr int kApart = 6;  // samples, so that the pattern of a cloth does not go on as stripes
+constexpr int kApart = 10;  // samples, so that the pattern of a cloth does not go on as stripes
 constexpr int kApartNarrow = 3;  // where the face is too narrow
 constexpr int kEachSide = 2;     // samples
 constexpr int kFringe = 2;       // beside an outline, where the colours of both sides are mixed

@@ -76,10 +76,12 @@ void draw_mouse(ImDrawList& list, ImVec2 middle, float s, bool pressed) {
     list.AddLine({low.x, seam}, {high.x, seam}, kInk, 1.6F * s);
 }
 
-/// The pointer, and the mouse to its lower right.
+/// The pointer, and the mouse to its lower right, or to its left where there is no room.
 void draw_hand(ImDrawList& list, const Hand& hand, float scale) {
     draw_pointer(list, hand.at, 1.4F * scale);
-    draw_mouse(list, {hand.at.x + 50.0F * scale, hand.at.y + 34.0F * scale}, scale, hand.pressed);
+    const bool has_room = hand.at.x + 67.0F * scale < list.GetClipRectMax().x;
+    const float aside = has_room ? 50.0F : -30.0F;
+    draw_mouse(list, {hand.at.x + aside * scale, hand.at.y + 34.0F * scale}, scale, hand.pressed);
 }
 
 void draw_tick(ImDrawList& list, ImVec2 middle, float r) {

@@ -93,11 +93,14 @@ void draw_material(ViewerState& state, const std::string& name, const char* help
         if (ImGui::GetContentRegionAvail().x < button_width(label.c_str())) ImGui::NewLine();
     }
     const bool chosen = state.touch.material.name == name;
-    ImGui::PushStyleColor(
-        ImGuiCol_Button, ImGui::GetStyleColorVec4(chosen ? ImGuiCol_SliderGrab : ImGuiCol_FrameBg));
+    const auto push = [chosen](ImGuiCol of, ImGuiCol usual) {
+        ImGui::PushStyleColor(of, ImGui::GetStyleColorVec4(chosen ? ImGuiCol_SliderGrab : usual));
+    };
+    push(ImGuiCol_Button, ImGuiCol_FrameBg);
+    push(ImGuiCol_ButtonHovered, ImGuiCol_ButtonHovered);  // the pointer is on what it chose
     if (item::button(label.c_str()))
         state.commands.push(UseMaterial{name.empty() ? std::string(kAsRecorded) : name});
-    ImGui::PopStyleColor();
+    ImGui::PopStyleColor(2);
     if (state.ui.lead && name == kLedTo && ImGui::IsItemVisible()) {
         const ImVec2 low = ImGui::GetItemRectMin();
         const ImVec2 high = ImGui::GetItemRectMax();

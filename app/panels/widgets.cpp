@@ -366,7 +366,10 @@ void fact_row(const char* label, const std::string& value, const char* help) {
     ImGui::TextDisabled("%s", label);
     add_tooltip(help);
     const float label_end = ImGui::CalcTextSize(label).x + ImGui::GetStyle().ItemSpacing.x;
-    ImGui::SameLine(begin + std::max(width * kLabelShare, label_end));
+    const float fits_from = width - ImGui::CalcTextSize(value.c_str()).x;
+    const float usual = std::max(width * kLabelShare, label_end);
+    // Beside its label, a value that fits is on one line.
+    ImGui::SameLine(begin + (fits_from < label_end ? usual : std::min(usual, fits_from)));
     ImGui::PushTextWrapPos(begin + width);
     ImGui::TextUnformatted(value.c_str());
     ImGui::PopTextWrapPos();

@@ -126,9 +126,10 @@ std::optional<int> buttons(const ButtonGroup& group, const ButtonPlaces& all) {
     for (int k = 0; k < static_cast<int>(all.places.size()); ++k) {
         ImGui::PushID(k);
         const bool lit = k == group.marked;
-        if (lit) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetColorU32(ImGuiCol_SliderGrab));
+        for (const ImGuiCol ground : {ImGuiCol_Button, ImGuiCol_ButtonHovered})
+            if (lit) ImGui::PushStyleColor(ground, ImGui::GetColorU32(ImGuiCol_SliderGrab));
         if (button(all.places[static_cast<std::size_t>(k)], origin)) clicked = k;
-        if (lit) ImGui::PopStyleColor();
+        if (lit) ImGui::PopStyleColor(2);
         ImGui::PopID();
     }
     ImGui::EndDisabled();
